@@ -3,20 +3,10 @@
 // instructions and cycles are those of the processor's own counters for the thread that calls,
 // which other programs disturb not at all and little (Linux; blank where they are not to be had);
 // memory is what is allocated beyond the input, at the peak and held.
-//
-// bench/first.py --before builds this file with the library of an earlier commit: what is asked of
-// the library stands in built.hpp.
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <atomic>
-#include <cstdint>
-#include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <new>
-#include <string>
-#include <vector>
 
 #ifdef __linux__
 #include <linux/perf_event.h>
@@ -26,58 +16,49 @@
 #include <unistd.h>
 #endif
 
+#include <plexway/complex/intrinsic_delaunay.hpp>
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/io/tets.hpp>
 
-#include "built.hpp"
-#include "compare.hpp"
-#include "processor_time.hpp"
+#include "measure.hpp"
 
 namespace {
 
+std::atomic<bool> counting = false;  // only while this command measures
 std::atomic<std::size_t> held = 0, peak = 0;
 
-void reach(std::size_t now) {
-  std::size_t known = peak;
-  while (known < now && !peak.compare_exchange_weak(known, now)) {
-  }
-}
-
-void* counted(std::size_t size) {
-  void* p = std::malloc(size > 0 ? size : 1);
+void* counted(void* p) {
   if (p == nullptr) throw std::bad_alloc();
 #ifdef __linux__
-  held += malloc_usable_size(p);
+  if (counting) {
+    const std::size_t now = held += malloc_usable_size(p);
+    for (std::size_t known = peak; known < now && !peak.compare_exchange_weak(known, now);) {
+    }
+  }
 #endif
-  reach(held);
   return p;
 }
 void release(void* p) {
 #ifdef __linux__
-  if (p != nullptr) held -= malloc_usable_size(p);
+  if (counting && p != nullptr) held -= malloc_usable_size(p);
 #endif
   std::free(p);
-}
-void* counted(std::size_t size, std::align_val_t align) {
-  const std::size_t a = static_cast<std::size_t>(align);
-  void* p = std::aligned_alloc(a, (size + a - 1) / a * a);
-  if (p == nullptr) throw std::bad_alloc();
-#ifdef __linux__
-  held += malloc_usable_size(p);
-#endif
-  reach(held);
-  return p;
 }
 
 }  // namespace
 
-void* operator new(std::size_t size) { return counted(size); }
-void* operator new(std::size_t size, std::align_val_t align) { return counted(size, align); }
+void* operator new(std::size_t size) { return counted(std::malloc(size > 0 ? size : 1)); }
+void* operator new(std::size_t size, std::align_val_t align) {
+  const auto a = static_cast<std::size_t>(align);
+  return counted(std::aligned_alloc(a, (size + a - 1) / a * a));
+}
 void operator delete(void* p) noexcept { release(p); }
 void operator delete(void* p, std::size_t) noexcept { release(p); }
 void operator delete(void* p, std::align_val_t) noexcept { release(p); }
 void operator delete(void* p, std::size_t, std::align_val_t) noexcept { release(p); }
 
-namespace {
+namespace bench::build {
 
 /// What the processor counts of this thread outside the kernel.
 class Counter {
@@ -112,17 +93,14 @@ class Counter {
   int file_ = -1;
 };
 
-struct Cost {
-  double ns = 0, instructions = 0, cycles = 0, peak = 0, held = 0;  // a unit
-};
-
-/// `make` returns what is built, so that what it holds can be told.
+/// `make` returns what is built, so that what it holds can be told. Figures are of a unit.
 template <class Make>
-Cost measure(std::size_t units, int repeats, bool by_clock, const Make& make) {
+Row measure(std::size_t units, int repeats, bool by_clock, const Make& make) {
   const Counter instructions(Counter::Of::instructions), cycles(Counter::Of::cycles);
   std::vector<double> times, counts, cycle_counts;
-  Cost cost;
   const double n = static_cast<double>(units);
+  double held_each = 0, peak_each = 0;
+  counting = true;
   for (int i = 0; i < repeats; ++i) {
     const std::size_t before = held;
     peak = held.load();
@@ -132,81 +110,72 @@ Cost measure(std::size_t units, int repeats, bool by_clock, const Make& make) {
       const auto made = make();
       end = instructions.now();
       last_cycle = cycles.now();
-      cost.held = static_cast<double>(held - before) / n;
+      held_each = static_cast<double>(held - before) / n;
     };
-    times.push_back(1e9 / n * (by_clock ? bench::seconds(work) : bench::processor_seconds(work)));
+    times.push_back(1e9 / n * (by_clock ? seconds(work) : processor_seconds(work)));
     counts.push_back(static_cast<double>(end - start) / n);
     cycle_counts.push_back(static_cast<double>(last_cycle - first_cycle) / n);
-    cost.peak = static_cast<double>(peak - before) / n;
+    peak_each = static_cast<double>(peak - before) / n;
   }
-  cost.ns = bench::median(times);
-  cost.instructions = bench::median(counts);
-  cost.cycles = bench::median(cycle_counts);
-  return cost;
-}
-
-nlohmann::ordered_json cells(const Cost& cost) {
-  nlohmann::ordered_json row = {
-      {"ns", cost.ns}, {"peak_bytes", cost.peak}, {"held_bytes", cost.held}};
-  if (cost.instructions > 0) row["instructions"] = cost.instructions;
-  if (cost.cycles > 0) row["cycles"] = cost.cycles;
+  counting = false;
+  Row row = {{"ns", median(times)}, {"peak_bytes", peak_each}, {"held_bytes", held_each}};
+  if (median(counts) > 0) row["instructions"] = median(counts);
+  if (median(cycle_counts) > 0) row["cycles"] = median(cycle_counts);
   return row;
 }
 
-bool is_solid(const std::filesystem::path& file) {
-  return file.extension() == ".node" || file.extension() == ".ele" || file.extension() == ".mesh";
+/// What can be built of a surface, by add(name, make).
+template <class Add>
+void of_surface(const Surface& s, int threads, const Add& add) {
+  using plexway::TriangleMesh;
+  plexway::SurfaceHints hints;
+  hints.threads = threads;
+  add("surface, float", [&] { return TriangleMesh<float>(s.positions, s.faces, hints); });
+  add("surface, double", [&] { return TriangleMesh<double>(s.positions, s.faces, hints); });
+  add("surface or what pays, float",
+      [&] { return plexway::triangulate<float>(s.positions, s.faces, {}, threads); });
+  add("by Delaunay, float", [&] {
+    return plexway::triangulate<float>(s.positions, s.faces, plexway::Retriangulation::flips,
+                                       threads);
+  });
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+void run(Arguments& arguments) {
   std::vector<std::string> meshes;
   std::vector<std::size_t> sizes = {400000};
   int repeats = 5, threads = 0;
-  double limit = 600;
-  bench::Report report;
-  CLI::App app("What building costs: a vertex of a surface, a tetrahedron of a solid");
-  app.add_option("MESH", meshes, "Surfaces (.obj .off .ply .stl), solids (.node .ele .mesh)");
-  app.add_option("--sizes", sizes, "Vertices of generated surfaces besides")->delimiter(',');
-  app.add_option("--repeats", repeats, "Of each")->capture_default_str();
-  app.add_option("--threads", threads, "By the clock with so many (default: one, processor time)");
-  app.add_option("--limit", limit, "Seconds after which a row is given up")->capture_default_str();
-  report.add_options(app);
-  CLI11_PARSE(app, argc, argv);
-
-  bench::Table table({{"input", "input"},
-                      {"built", "built"},
-                      {"units", "vertices or tets", "%.0f"},
-                      {"ns", "ns each", "%.0f"},
-                      {"instructions", "instructions each", "%.0f"},
-                      {"cycles", "cycles each", "%.0f"},
-                      {"peak_bytes", "peak bytes each", "%.0f"},
-                      {"held_bytes", "held bytes each", "%.0f"},
-                      {"note", "note"}});
+  arguments.option("MESH", &meshes, "Surfaces (.obj .off .ply .stl), solids (.node .ele .mesh)");
+  arguments.option("--sizes", &sizes, "Vertices of generated surfaces besides");
+  arguments.option("--repeats", &repeats, "Of each");
+  arguments.option("--threads", &threads, "By the clock with so many (0: one, processor time)");
+  arguments.add_limit();
+  Table& table = arguments.table(
+      "input; built; units: vertices or tets %.0f; ns: ns each %.0f;"
+      "instructions: instructions each %.0f; cycles: cycles each %.0f;"
+      "peak_bytes: peak bytes each %.0f; held_bytes: held bytes each %.0f; note");
   const auto add = [&](const std::string& input, const char* built, std::size_t units,
                        const auto& make) {
-    nlohmann::ordered_json row = {{"input", input}, {"built", built}, {"units", units}};
-    row.update(
-        bench::isolated(limit, [&] { return cells(measure(units, repeats, threads > 0, make)); }));
-    table.add(std::move(row));
+    table.measure({{"input", input}, {"built", built}, {"units", units}}, arguments.limit,
+                  [&] { return measure(units, repeats, threads > 0, make); });
   };
-  const auto add_surface = [&](const bench::Surface& s) {
-    bench::built_of_surface(s, std::max(threads, 1), [&](const char* built, const auto& make) {
+  const int team = std::max(threads, 1);
+  const auto add_surface = [&](const Surface& s) {
+    of_surface(s, team, [&](const char* built, const auto& make) {
       add(s.name, built, s.positions.size(), make);
     });
   };
-  return report.write(table, [&] {
-    for (const std::filesystem::path mesh : meshes) {
-      if (!is_solid(mesh)) {
-        add_surface(bench::read_surface(mesh));
-        continue;
-      }
-      const auto read = plexway::io::read_tets(mesh);
-      bench::built_of_solid(read.positions, read.tets, std::max(threads, 1),
-                            [&](const char* built, const auto& make) {
-                              add(mesh.stem().string(), built, read.tets.size(), make);
-                            });
+  for (const std::filesystem::path mesh : meshes) {
+    const std::string kind = mesh.extension().string();
+    if (kind != ".node" && kind != ".ele" && kind != ".mesh") {
+      add_surface(read_surface(mesh));
+      continue;
     }
-    for (const std::size_t size : sizes) add_surface(bench::bumpy_surface(size));
-  });
+    const auto read = plexway::io::read_tets(mesh);
+    add(mesh.stem().string(), "solid, float", read.tets.size(),
+        [&] { return plexway::TetMesh<float>(read.positions, read.tets, team); });
+  }
+  for (const std::size_t size : sizes) add_surface(bumpy_surface(size));
 }
+const Command command("build", "what building surfaces and solids costs: time, memory", run);
+
+}  // namespace bench::build

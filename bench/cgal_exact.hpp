@@ -10,12 +10,25 @@
 #include <stdexcept>
 #include <vector>
 
-#include "peer.hpp"
+#include "peers.hpp"
 
 namespace bench::cgal {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Paths =
+    CGAL::Surface_mesh_shortest_path<CGAL::Surface_mesh_shortest_path_traits<Kernel, Mesh>>;
+
+/// From the sources that were added to all vertices; infinite where no path leads.
+inline std::vector<double> all_distances(const Mesh& mesh, Paths& paths) {
+  paths.build_sequence_tree();
+  std::vector<double> all;
+  for (const auto v : mesh.vertices()) {
+    const double found = paths.shortest_distance_to_source_points(v).first;
+    all.push_back(found < 0 ? std::numeric_limits<double>::infinity() : found);
+  }
+  return all;
+}
 
 // CGAL's vertices keep our numbers. It works on halfedges of an oriented manifold without loose
 // vertices and does not check: what is none is refused here.
@@ -33,26 +46,19 @@ inline Mesh make_mesh(const Surface& surface) {
 }
 
 class ExactPaths final : public Peer {
-  using Traits = CGAL::Surface_mesh_shortest_path_traits<Kernel, Mesh>;
-
  public:
-  explicit ExactPaths(const Surface& surface)
-      : mesh_(make_mesh(surface)), paths_(mesh_), distance_(surface.positions.size()) {}
+  explicit ExactPaths(const Surface& surface) : mesh_(make_mesh(surface)), paths_(mesh_) {}
 
   void solve(Index source) override {
     paths_.remove_all_source_points();
     paths_.add_source_point(Mesh::Vertex_index(source));
-    paths_.build_sequence_tree();
-    for (const auto v : mesh_.vertices()) {
-      const double found = paths_.shortest_distance_to_source_points(v).first;
-      distance_[v] = found < 0 ? std::numeric_limits<double>::infinity() : found;  // no path
-    }
+    distance_ = all_distances(mesh_, paths_);
   }
   [[nodiscard]] std::vector<double> distance() const override { return distance_; }
 
  private:
   Mesh mesh_;
-  CGAL::Surface_mesh_shortest_path<Traits> paths_;
+  Paths paths_;
   std::vector<double> distance_;
 };
 

@@ -2,24 +2,20 @@
 // CGAL's exact shortest paths. What comes out is checked before it is believed: never shorter than
 // the straight line through space, never longer than a path that plexway has found.
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
+#include <fstream>
 #include <iostream>
-#include <string>
-#include <vector>
 
 #include "cgal_exact.hpp"
-#include "isolate.hpp"
+#include "solver.hpp"
 
-namespace {
+namespace bench::cgal_truth {
 
-void check(const bench::Surface& surface, bench::Index source, const std::vector<double>& exact) {
-  plexway::PropagateOptions options = bench::one_label();
+void check(const Surface& surface, Index source, const std::vector<double>& exact) {
+  plexway::PropagateOptions options = one_label();
   options.visibility = plexway::Visibility::upper_bound;
-  bench::PlexwayPeer<double> above(surface, options);
-  above.solve(source);
-  const std::vector<double> longest = above.distance();
+  const plexway::TriangleMesh<double> mesh(surface.positions, surface.faces);
+  const auto longest = distances(mesh, plexway::PointSource::at(source), options);
   const auto& from = surface.positions[source];
   for (std::size_t v = 0; v < exact.size(); ++v) {
     const auto& to = surface.positions[v];
@@ -44,26 +40,19 @@ void write(const std::filesystem::path& file, const std::vector<double>& exact) 
   if (!stream) throw std::runtime_error("cannot write " + file.string());
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  std::vector<std::filesystem::path> meshes;
+void run(Arguments& arguments) {
+  std::vector<std::string> meshes;
   std::size_t sources = 2;
-  double limit = 300;
-  CLI::App app("Exact answers beside surfaces, by CGAL's exact shortest paths");
-  app.add_option("MESH", meshes, "Surfaces (.obj .off .ply .stl)")->required();
-  app.add_option("--sources", sources, "Sources a surface, spread out and always the same")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--limit", limit, "Seconds after which a surface is given up")
-      ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  arguments.required("MESH", &meshes, "Surfaces (.obj .off .ply .stl)");
+  arguments.positive("--sources", &sources, "Sources a surface, spread out and always the same");
+  arguments.add_limit(300);
+  arguments.parse();
   bool all = true;
-  for (const std::filesystem::path& file : meshes) {
-    const auto done = bench::isolated(limit, [&]() -> nlohmann::ordered_json {
-      const bench::Surface surface = bench::read_surface(file);
-      bench::cgal::ExactPaths paths(surface);
-      for (const bench::Index source : bench::rotating_sources(surface, sources)) {
+  for (const std::filesystem::path file : meshes) {
+    const Row done = isolated(arguments.limit, [&]() -> Row {
+      const Surface surface = read_surface(file);
+      cgal::ExactPaths paths(surface);
+      for (const Index source : rotating_sources(surface, sources)) {
         paths.solve(source);
         check(surface, source, paths.distance());
         write(file.parent_path() / (surface.name + ".v" + std::to_string(source) + ".txt"),
@@ -71,9 +60,12 @@ int main(int argc, char** argv) {
       }
       return {{"vertices", surface.positions.size()}};
     });
-    all = all && !done.contains("note");
-    std::cerr << file.string() << ": "
-              << (done.contains("note") ? done["note"].get<std::string>() : "done") << std::endl;
+    const Value* note = done.find("note");
+    all = all && note == nullptr;
+    std::cerr << file.string() << ": " << (note != nullptr ? note->text() : "done") << std::endl;
   }
-  return all ? 0 : 1;
+  if (!all) throw Exit(1, "not all surfaces have answers");
 }
+const Command command("truth", "writes exact answers beside surfaces", run);
+
+}  // namespace bench::cgal_truth

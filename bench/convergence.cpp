@@ -1,27 +1,19 @@
 // Error against mesh size: smooth surfaces, a polyhedral one, a regular grid, solids with
 // obstacles. convergence.sh draws the plot.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iostream>
 #include <map>
-#include <string>
-#include <vector>
-
-#include <plexway/solve.hpp>
 
 #include "../data/shapes.hpp"
-#include "harness.hpp"
-#include "table.hpp"
+#include "solver.hpp"
 #ifdef PLEXWAY_HAS_TETGEN
 #include "solid_domains.hpp"
 #endif
 
-namespace {
+namespace bench::convergence {
 
-using bench::Index;
 using samples::Point;
 using samples::Shape;
 using samples::operator-;
@@ -29,20 +21,13 @@ using samples::operator-;
 struct Sample {
   std::size_t simplices = 0;
   double edge = 0;  ///< mean, in the unit of the domain
-  bench::Errors::Summary errors{};
+  Errors::Summary errors{};
 };
-
-template <class Mesh>
-std::vector<double> solve(const Mesh& mesh, Index source) {
-  return plexway::solve(plexway::Serial{}, mesh, plexway::PointSource::at(source),
-                        bench::one_label())
-      .distance;
-}
 
 Sample measure(const Shape& shape, Index source, const std::vector<double>& exact) {
   const plexway::TriangleMesh<double> mesh(shape.points, shape.faces);
-  bench::Errors errors;
-  errors.add({source, exact}, solve(mesh, source));
+  Errors errors;
+  errors.add({source, exact}, distances(mesh, plexway::PointSource::at(source), one_label()));
   return {shape.faces.size(), mesh.unit(), *errors.summary()};
 }
 
@@ -88,7 +73,8 @@ constexpr Index finest_torus = 1024;
 Sample torus_sample(Index rings) {
   static const std::vector<double> reference = [] {
     const Shape fine = torus(finest_torus);
-    return solve(plexway::TriangleMesh<double>(fine.points, fine.faces), 0);
+    return distances(plexway::TriangleMesh<double>(fine.points, fine.faces),
+                     plexway::PointSource::at(0), one_label());
   }();
   const Index step = finest_torus / rings;
   std::vector<double> exact;
@@ -171,10 +157,11 @@ Sample ripple(Index n) {
 }
 
 #ifdef PLEXWAY_HAS_TETGEN
-Sample measure(const bench::SolidDomain& domain) {
+Sample measure(const SolidDomain& domain) {
   const plexway::TetMesh<double> mesh(domain.positions, domain.tets);
-  bench::Errors errors;
-  errors.add(domain.truth, solve(mesh, domain.truth.source));
+  Errors errors;
+  errors.add(domain.truth,
+             distances(mesh, plexway::PointSource::at(domain.truth.source), one_label()));
   return {domain.tets.size(), mesh.unit(), *errors.summary()};
 }
 #endif
@@ -203,54 +190,40 @@ std::vector<Series> all_series(double most_tets) {
   std::vector<double> tets;
   for (const double n : {10e3, 30e3, 100e3, 250e3, 500e3})
     if (n <= most_tets) tets.push_back(n);
-  const auto solid = [](bench::SolidDomain (*make)(double)) {
+  const auto solid = [](SolidDomain (*make)(double)) {
     return [make](double n) { return measure(make(n)); };
   };
-  all.push_back({"pipe", "solid", "the same prism", tets, solid(bench::pipe_domain)});
-  all.push_back({"cavity", "solid", "the round ball", tets, solid(bench::cavity_domain)});
+  all.push_back({"pipe", "solid", "the same prism", tets, solid(pipe_domain)});
+  all.push_back({"cavity", "solid", "the round ball", tets, solid(cavity_domain)});
 #else
   static_cast<void>(most_tets);
 #endif
   return all;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+void run(Arguments& arguments) {
   std::vector<std::string> only;
   double most_tets = 500e3;
-  bench::Report report;
-  CLI::App app("Error against mesh size, double precision, one source");
-  app.add_option("--only", only, "Names of series")->delimiter(',');
-  app.add_option("--most-tets", most_tets, "Tetrahedra at most")->capture_default_str();
-  report.add_options(app);
-  CLI11_PARSE(app, argc, argv);
-
-  bench::Table table({{"series", "domain"},
-                      {"kind", "kind"},
-                      {"exact", "against"},
-                      {"simplices", "simplices"},
-                      {"edge", "mean edge", "%.3g"},
-                      {"mean", "error mean", "%.1e"},
-                      {"p99", "p99", "%.1e"},
-                      {"max", "max", "%.1e"},
-                      {"below", "most below", "%.1e"},
-                      {"order", "order", "%.1f"}});
-  return report.write(table, [&] {
-    for (const Series& series : all_series(most_tets)) {
-      if (!only.empty() && std::find(only.begin(), only.end(), series.name) == only.end()) continue;
-      double edge = 0, mean = 0;
-      for (const double size : series.sizes) {
-        std::cerr << series.name << ' ' << size << std::endl;
-        const Sample s = series.sample(size);
-        nlohmann::ordered_json row = {
-            {"series", series.name},    {"kind", series.kind}, {"exact", series.exact},
-            {"simplices", s.simplices}, {"edge", s.edge},      {"mean", s.errors.mean},
-            {"p99", s.errors.p99},      {"max", s.errors.max}, {"below", s.errors.most_below}};
-        if (edge > 0) row["order"] = std::log(mean / s.errors.mean) / std::log(edge / s.edge);
-        edge = s.edge, mean = s.errors.mean;
-        table.add(std::move(row));
-      }
+  arguments.names("--only", &only, "Names of series");
+  arguments.option("--most-tets", &most_tets, "Tetrahedra at most");
+  Table& table = arguments.table(
+      "series: domain; kind; exact: against; simplices; edge: mean edge %.3g;"
+      "mean: error mean %.1e; p99 %.1e; max %.1e; below: most below %.1e; order %.1f");
+  for (const Series& series : all_series(most_tets)) {
+    if (!only.empty() && std::find(only.begin(), only.end(), series.name) == only.end()) continue;
+    double edge = 0, mean = 0;
+    for (const double size : series.sizes) {
+      std::cerr << series.name << ' ' << size << std::endl;
+      const Sample s = series.sample(size);
+      Row row = {{"series", series.name},    {"kind", series.kind}, {"exact", series.exact},
+                 {"simplices", s.simplices}, {"edge", s.edge},      {"mean", s.errors.mean},
+                 {"p99", s.errors.p99},      {"max", s.errors.max}, {"below", s.errors.most_below}};
+      if (edge > 0) row["order"] = std::log(mean / s.errors.mean) / std::log(edge / s.edge);
+      edge = s.edge, mean = s.errors.mean;
+      table.add(std::move(row));
     }
-  });
+  }
 }
+const Command command("convergence", "error against mesh size (convergence.sh draws it)", run);
+
+}  // namespace bench::convergence

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws bench_convergence's JSON as an SVG: error against mean edge, both axes logarithmic.
+"""Draws bench convergence's JSON as an SVG: error against mean edge, both axes logarithmic.
 
   convergence.py TABLE.json PLOT.svg
 """

@@ -2,7 +2,7 @@
 # Error against mesh size, as a table and a plot: docs/convergence.md and docs/convergence.svg are made
 # by
 #
-#   bench/convergence.sh BUILD OUT [options of bench_convergence]
+#   bench/convergence.sh BUILD OUT [options of bench convergence]
 #
 # OUT gets convergence.json and convergence.svg; the table goes to stdout. Some minutes; needs python3.
 set -eu
@@ -12,7 +12,7 @@ out=$2
 shift 2
 here=$(dirname "$0")
 mkdir -p "$out"
-"$build/bin/bench_convergence" --json --markdown "$out/convergence.table.md" "$@" \
+"$build/bin/bench" convergence --json --markdown "$out/convergence.table.md" "$@" \
   > "$out/convergence.json"
 python3 "$here/convergence.py" "$out/convergence.json" "$out/convergence.svg"
 cat "$out/convergence.table.md"

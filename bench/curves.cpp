@@ -2,23 +2,14 @@
 // one source by windows, by labels, and as 200 points of it by labels, in turns. Errors are
 // relative to the distance, but where that is less than an edge, to the edge.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
 
-#include <plexway/apps/path_field.hpp>
-#include <plexway/solve.hpp>
+#include "path_points.hpp"
+#include "solver.hpp"
 
-#include "../data/shapes.hpp"
-#include "harness.hpp"
-#include "table.hpp"
+namespace bench::curves {
 
-namespace {
-
-using plexway::Index;
 using plexway::PointSource;
 using samples::Point;
 using samples::operator*;
@@ -101,35 +92,8 @@ Case segment(const Unrolled& s, const plexway::TriangleMesh<double>& mesh) {
                d = std::min(d, to_segment({p[0] + turn, p[1], 0}, a, b));
              return d;
            }};
-  plexway::CurveSource curve;
-  const auto at = [&](std::size_t i) {
-    if (i == 0) return PointSource::at(to);
-    if (i + 1 == path.points.size()) return PointSource::at(from);
-    return PointSource::in(path.points[i].simplex, path.points[i].barycentric);
-  };
-  for (std::size_t i = 0; i < path.points.size(); ++i) curve.points.push_back(at(i));
-  one.source = curve;
-  // Points at equal steps. The piece after a point is in the simplex that the path names there.
-  double walked = 0;
-  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
-    const Point p = path.positions[i], step = path.positions[i + 1] - p;
-    const double length = std::sqrt(samples::dot(step, step));
-    for (; one.points.size() < count;) {
-      const double t =
-          (path.length * (static_cast<double>(one.points.size()) + 0.5) / count - walked) / length;
-      if (t > 1) break;
-      const auto& f = s.shape.faces[path.points[i].simplex];
-      const auto area = [&](const Point& x, const Point& y, const Point& z) {
-        const Point n = samples::cross(y - x, z - x);
-        return std::sqrt(samples::dot(n, n));
-      };
-      const Point x = p + t * step, &a = s.shape.points[f[0]], &b = s.shape.points[f[1]],
-                  &c = s.shape.points[f[2]];
-      const double u = area(x, b, c), v = area(a, x, c), w = area(a, b, x), sum = u + v + w;
-      one.points.push_back(PointSource::in(path.points[i].simplex, {u / sum, v / sum, w / sum}));
-    }
-    walked += length;
-  }
+  one.source = curve_of(path, from, to);
+  one.points = points_along(path, s.shape.points, s.shape.faces, count);
   return one;
 }
 
@@ -182,92 +146,63 @@ Case triangle(const Unrolled& s) {
   return one;
 }
 
-nlohmann::ordered_json measure(const Unrolled& s, const plexway::TriangleMesh<double>& mesh,
-                               const Case& one, plexway::Accuracy accuracy, std::size_t turns) {
-  plexway::Workspace<double> workspace;
-  plexway::DistanceField<double> whole, by_labels, sampled;
+Row measure(const Unrolled& s, const plexway::TriangleMesh<double>& mesh, const Case& one,
+            plexway::Accuracy accuracy, std::size_t turns) {
   plexway::PropagateOptions options;
   options.accuracy = accuracy;
-  const plexway::PropagateOptions labels = bench::one_label();
+  Solver whole(mesh), by_labels(mesh), sampled(mesh);
   std::vector<double> first, ratio, to_labels;
-  const auto solve = [&](const auto& sources, const plexway::PropagateOptions& by,
-                         plexway::DistanceField<double>& field) {
-    return bench::seconds(
-        [&] { plexway::solve(plexway::Serial{}, mesh, sources, by, workspace, field); });
-  };
   for (std::size_t i = 0; i <= turns; ++i) {
-    const double a = solve(std::span(&one.source, 1), options, whole);
-    const double b = solve(std::span(&one.source, 1), labels, by_labels);
-    const double c = solve(std::span<const PointSource>(one.points), labels, sampled);
+    const double a = seconds([&] { whole.solve(one.source, options); });
+    const double b = seconds([&] { by_labels.solve(one.source, one_label()); });
+    const double c = seconds([&] { sampled.solve(one.points, one_label()); });
     if (i == 0) continue;
     first.push_back(1e9 * a / static_cast<double>(s.flat.size()));
     to_labels.push_back(a / b);
     ratio.push_back(a / c);
   }
-  struct Errors {
-    double mean = 0, max = 0;
-  };
-  const auto errors = [&](const plexway::DistanceField<double>& field) {
-    Errors e;
+  Row row = {{"surface", s.name}, {"vertices", s.flat.size()}, {"source", one.name}};
+  const auto add = [&](const std::string& named, const std::vector<double>& found) {
+    double mean = 0, most = 0;
     for (std::size_t v = 0; v < s.flat.size(); ++v) {
       const double d = one.exact(s.flat[v]);
-      const double off = std::abs(field.distance[v] - d) / std::max(d, s.edge);
-      e.mean += off / static_cast<double>(s.flat.size());
-      e.max = std::max(e.max, off);
+      const double off = std::abs(found[v] - d) / std::max(d, s.edge);
+      mean += off / static_cast<double>(s.flat.size());
+      most = std::max(most, off);
     }
-    return e;
+    row.update({{named + "mean", mean}, {named + "max", most}});
   };
-  const Errors e = errors(whole), l = errors(by_labels), points = errors(sampled);
-  return {{"surface", s.name},
-          {"vertices", s.flat.size()},
-          {"source", one.name},
-          {"mean", e.mean},
-          {"max", e.max},
-          {"labels_mean", l.mean},
-          {"labels_max", l.max},
-          {"points_mean", points.mean},
-          {"points_max", points.max},
-          {"ns", bench::median(first)},
-          {"to_labels", bench::median(to_labels)},
-          {"ratio", bench::median(ratio)}};
+  add("", whole.distance());
+  add("labels_", by_labels.distance());
+  add("points_", sampled.distance());
+  return row.update(
+      {{"ns", median(first)}, {"to_labels", median(to_labels)}, {"ratio", median(ratio)}});
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+void run(Arguments& arguments) {
   std::vector<Index> cells = {60, 200, 600};
   std::size_t turns = 15;
   double accuracy = plexway::Accuracy::accurate().error();
-  bench::Report report;
-  CLI::App app("Segments, circles and triangles as sources against 200 points of them");
-  app.add_option("--cells", cells, "Cells a side")->delimiter(',')->capture_default_str();
-  app.add_option("--turns", turns, "Solves of each")->capture_default_str();
-  app.add_option("--accuracy", accuracy, "Mean relative error to ask windows for; 0: exact")
-      ->capture_default_str();
-  report.add_options(app);
-  CLI11_PARSE(app, argc, argv);
-
-  bench::Table table({{"surface", "surface"},
-                      {"vertices", "vertices"},
-                      {"source", "source"},
-                      {"mean", "error mean", "%.1e"},
-                      {"max", "max", "%.1e"},
-                      {"labels_mean", "labels: mean", "%.1e"},
-                      {"labels_max", "max", "%.1e"},
-                      {"points_mean", "200 points: mean", "%.1e"},
-                      {"points_max", "max", "%.1e"},
-                      {"ns", "ns/V", "%.0f"},
-                      {"to_labels", "time / labels", "%.2f"},
-                      {"ratio", "time / 200 points", "%.2f"}});
-  return report.write(table, [&] {
-    for (const Index n : cells) {
-      for (const Unrolled& s : {square(n), prism(n)}) {
-        const plexway::TriangleMesh<double> mesh(s.shape.points, s.shape.faces);
-        table.add(measure(s, mesh, segment(s, mesh), plexway::Accuracy(accuracy), turns));
-        if (s.name != "square") continue;
-        table.add(measure(s, mesh, circle(s), plexway::Accuracy(accuracy), turns));
-        table.add(measure(s, mesh, triangle(s), plexway::Accuracy(accuracy), turns));
-      }
+  arguments.option("--cells", &cells, "Cells a side");
+  arguments.option("--turns", &turns, "Solves of each");
+  arguments.option("--accuracy", &accuracy, "Mean relative error to ask windows for; 0: exact");
+  Table& table = arguments.table(
+      "surface; vertices; source; mean: error mean %.1e; max %.1e; labels_mean: labels: mean %.1e;"
+      "labels_max: max %.1e; points_mean: 200 points: mean %.1e; points_max: max %.1e;"
+      "ns: ns/V %.0f; to_labels: time / labels %.2f; ratio: time / 200 points %.2f");
+  for (const Index n : cells)
+    for (const Unrolled& s : {square(n), prism(n)}) {
+      const plexway::TriangleMesh<double> mesh(s.shape.points, s.shape.faces);
+      const auto add = [&](const Case& one) {
+        table.add(measure(s, mesh, one, plexway::Accuracy(accuracy), turns));
+      };
+      add(segment(s, mesh));
+      if (s.name != "square") continue;
+      add(circle(s));
+      add(triangle(s));
     }
-  });
 }
+const Command command("curves", "curves, balls and triangles as sources, against closed forms",
+                      run);
+
+}  // namespace bench::curves

@@ -1,13 +1,17 @@
-// What building makes, as an oracle for changes to it: every array of surfaces, their Delaunay
-// triangulations and solids, of shapes made on the spot and of files, in both precisions.
+// What building makes and what solving finds, as an oracle for changes to them: a line with a
+// checksum for every array of surfaces, their Delaunay triangulations and solids, and for fields on
+// them, on wireframes, complexes of simplices and mixed domains, of shapes made on the spot and of
+// files, in both precisions.
 //
-//   bench_digest --save NEW [FILE...]    (the same built before the change: --save OLD)
-//   bench_digest --compare OLD NEW
+//   bench_digest [FILE...] > NEW    (the same built before the change: > OLD)
+//   diff OLD NEW
 //
-// Comparing counts what differs, and how far apart numbers lie in units in the last place.
+// Beside the checksum stand how many numbers there are, and their mean, which tells whether another
+// checksum means another rounding.
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -17,147 +21,121 @@
 #include <random>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <plexway/complex/intrinsic_delaunay.hpp>
+#include <plexway/complex/simplicial_complex.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
-
-#include "digest_arrays.hpp"
+#include <plexway/solve.hpp>
 
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
+#include "data/random_stacks.hpp"
 
 namespace {
 
 using namespace plexway;
-using digest::Writer;
 using testing::Solid;
 using testing::Surface;
 
+/// Prints lines, each under the name of what was entered last.
+class Writer {
+ public:
+  void enter(std::string name) { prefix_ = std::move(name); }
+  template <class T>
+  void array(const char* name, const std::vector<T>& values) {
+    unsigned long long bits = 14695981039346656037u;  // Fowler, Noll and Vo's, by words, each mixed
+    double sum = 0, finite = 0;
+    for (const T value : values) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, &value, sizeof value);
+      bits = (bits ^ word) * 1099511628211u;
+      bits ^= bits >> 29;
+      const auto number = static_cast<double>(value);
+      if (std::isfinite(number)) sum += number, ++finite;
+    }
+    std::printf("%s %s: %zu %016llx %.12g\n", prefix_.c_str(), name, values.size(), bits,
+                finite > 0 ? sum / finite : 0);
+  }
+
+ private:
+  std::string prefix_;
+};
+
+template <class T, class Range>
+void append(std::vector<T>& to, const Range& more) {
+  for (const auto& one : more) to.push_back(static_cast<T>(one));
+}
+
 template <class Real>
 void add(Writer& out, const TriangleMesh<Real>& mesh) {
-  const auto t = mesh.triangles();
-  const auto of = [&](auto member) {
-    return [&t, member](std::size_t i) { return (t[i / 3].*member)[i % 3]; };
-  };
-  using Record = TriangleRecord<Real>;
-  out.integers("across", 3 * t.size(), of(&Record::across));
-  out.integers("corner", 3 * t.size(), of(&Record::corner));
-  out.integers("face", t.size(), [&](std::size_t f) { return t[f].face; });
-  out.integers("saddle", 3 * t.size(), [&](std::size_t i) { return t[i / 3].saddle(i % 3); });
-  out.template numbers<Real>("length", 3 * t.size(), of(&Record::length));
-  out.template numbers<Real>("cosine", 3 * t.size(), of(&Record::cosine));
-  out.template numbers<Real>("sine", 3 * t.size(),
-                             [&](std::size_t i) { return t[i / 3].sine(i % 3); });
-  const auto names = mesh.vertices_inside();
-  out.integers("vertices", names.size(), [&](std::size_t v) { return names[v]; });
-  out.integers("faces", mesh.face_count(), [&](std::size_t f) {
-    const auto [inside, turned] = mesh.inside_face(static_cast<Index>(f));
-    return 2ull * inside + turned;
-  });
-  out.integers("corner_at", names.size(),
-               [&](std::size_t v) { return mesh.corner_at(static_cast<Index>(v)); });
-  std::vector<Index> all, corners;
+  std::vector<Index> glued, corners, at, names;
+  std::vector<Real> shape;
+  for (const auto& t : mesh.triangles())
+    for (std::size_t i = 0; i < 3; ++i) {
+      append(glued, std::array{t.across[i], t.corner[i], Index{t.saddle(i)}});
+      append(shape, std::array<Real, 3>{t.length[i], t.cosine[i], t.sine(i)});
+    }
+  append(names, mesh.vertices_inside());
   for (Index v = 0; v < names.size(); ++v) {
-    mesh.corners_at(v, corners);
-    all.push_back(static_cast<Index>(corners.size()));
-    all.insert(all.end(), corners.begin(), corners.end());
+    mesh.corners_at(v, at);
+    corners.push_back(static_cast<Index>(at.size()));
+    append(corners, at);
   }
-  out.integers("corners_at", all.size(), [&](std::size_t i) { return all[i]; });
-  const auto pinched = mesh.pinched();
-  out.integers("pinched", pinched.size(), [&](std::size_t i) { return pinched[i]; });
+  append(corners, mesh.pinched());
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto [inside, turned] = mesh.inside_face(f);
+    append(names, std::array<std::size_t, 2>{inside, turned});
+  }
   const SurfaceSummary& s = mesh.summary();
-  const std::array<std::size_t, 12> counts = {s.vertices,
-                                              s.faces,
-                                              s.edges,
-                                              s.boundary_edges,
-                                              s.non_manifold_edges,
-                                              s.pinched_vertices,
-                                              s.unreferenced_vertices,
-                                              s.degenerate_faces,
-                                              s.violated_faces,
-                                              s.refracting_edges,
-                                              s.components,
-                                              s.orientable};
-  out.integers("summary", counts.size(), [&](std::size_t i) { return counts[i]; });
-  out.template numbers<double>("unit", 1, [&](std::size_t) { return mesh.unit(); });
+  out.array("gluing", glued);
+  out.array("shape", shape);
+  out.array("corners", corners);
+  out.array("names", names);
+  out.array("summary", std::vector<std::size_t>{
+                           s.vertices, s.faces, s.edges, s.boundary_edges, s.non_manifold_edges,
+                           s.pinched_vertices, s.unreferenced_vertices, s.degenerate_faces,
+                           s.violated_faces, s.refracting_edges, s.components, s.orientable});
 }
 
 template <class Real>
 void add(Writer& out, const TetMesh<Real>& mesh) {
-  const auto t = mesh.tets();
-  using Record = TetRecord<Real>;
-  const auto of = [&](auto member) {
-    return [&t, member](std::size_t i) { return (t[i / 4].*member)[i % 4]; };
-  };
-  out.integers("across", 4 * t.size(), of(&Record::across));
-  out.integers("corner", 4 * t.size(), of(&Record::corner));
-  out.integers("first_reflex", t.size(), [&](std::size_t i) { return t[i].reflex; });
-  const auto vector = [&](const char* name, std::size_t n, auto make) {
-    out.template numbers<Real>(name, 3 * n, [&](std::size_t i) {
-      const Vector3<Real> v = make(i / 3);
-      return i % 3 == 0 ? v.x : i % 3 == 1 ? v.y : v.z;
-    });
-  };
-  vector("centre", t.size(), [&](std::size_t i) { return t[i].centre; });
-  vector("points", mesh.points().size(), [&](std::size_t i) { return mesh.points()[i]; });
-  const auto lengths = mesh.squared_lengths();
-  out.template numbers<Real>("lengths", 6 * lengths.size(),
-                             [&](std::size_t i) { return lengths[i / 6][i % 6]; });
-  const auto reflex = mesh.reflex_edges();
-  const auto* words = reinterpret_cast<const Real*>(reflex.data());
-  constexpr std::size_t width = sizeof(ReflexEdge<Real>) / sizeof(Real);
-  out.template numbers<Real>("reflex", width * reflex.size(), [&](std::size_t i) {
-    Real value;
-    std::memcpy(&value, words + i, sizeof value);
-    return value;
-  });
-  const auto list = mesh.reflex_list();
-  out.integers("reflex_list", list.size(), [&](std::size_t i) { return list[i]; });
-  const auto names = mesh.vertices_inside();
-  out.integers("vertices", names.size(), [&](std::size_t v) { return names[v]; });
-  out.integers("tets", mesh.tet_count(), [&](std::size_t i) {
-    const auto [inside, turned] = mesh.inside_tet(static_cast<Index>(i));
-    return 2ull * inside + turned;
-  });
-  std::vector<Index> all;
-  for (Index v = 0; v < names.size(); ++v) {
-    const auto corners = mesh.corners_at(v);
-    all.push_back(static_cast<Index>(corners.size()));
-    all.insert(all.end(), corners.begin(), corners.end());
+  std::vector<Index> glued, corners, names;
+  std::vector<Real> shape;
+  for (const auto& t : mesh.tets()) {
+    append(glued, t.across);
+    append(glued, t.corner);
   }
-  out.integers("corners_at", all.size(), [&](std::size_t i) { return all[i]; });
-  const auto pinched = mesh.pinched();
-  out.integers("pinched", pinched.size(), [&](std::size_t i) { return pinched[i]; });
-  std::vector<Index> edges;
+  for (const auto& p : mesh.points()) append(shape, std::array<Real, 3>{p.x, p.y, p.z});
+  for (const auto& lengths : mesh.squared_lengths()) append(shape, lengths);
+  append(names, mesh.vertices_inside());
+  for (Index v = 0; v < names.size(); ++v) {
+    const auto at = mesh.corners_at(v);
+    corners.push_back(static_cast<Index>(at.size()));
+    append(corners, at);
+  }
+  append(corners, mesh.pinched());
+  append(corners, mesh.reflex_list());
   for (const auto& e : mesh.pinched_edges())
-    edges.insert(edges.end(), {e.vertex[0], e.vertex[1], e.begin, e.end});
-  out.integers("pinched_edges", edges.size(), [&](std::size_t i) { return edges[i]; });
-  const auto tets = mesh.pinched_edge_tets();
-  out.integers("pinched_edge_tets", tets.size(), [&](std::size_t i) { return tets[i]; });
+    append(corners, std::array{e.vertex[0], e.vertex[1], e.begin, e.end});
+  append(corners, mesh.pinched_edge_tets());
+  for (Index t = 0; t < mesh.tet_count(); ++t) {
+    const auto [inside, turned] = mesh.inside_tet(t);
+    append(names, std::array<std::size_t, 2>{inside, turned});
+  }
   const SolidSummary& s = mesh.summary();
-  const std::array<std::size_t, 16> counts = {s.vertices,
-                                              s.tets,
-                                              s.edges,
-                                              s.faces,
-                                              s.boundary_faces,
-                                              s.reflex_edges,
-                                              s.reflex_vertices,
-                                              s.pinched_vertices,
-                                              s.pinched_edges,
-                                              s.unreferenced_vertices,
-                                              s.degenerate_tets,
-                                              s.inverted_tets,
-                                              s.first_degenerate,
-                                              s.first_inverted,
-                                              s.components,
-                                              s.embedded};
-  out.integers("summary", counts.size(), [&](std::size_t i) { return counts[i]; });
-  out.template numbers<double>("unit", 1, [&](std::size_t) { return mesh.unit(); });
+  out.array("gluing", glued);
+  out.array("shape", shape);
+  out.array("corners", corners);
+  out.array("names", names);
+  out.array("summary", std::vector<std::size_t>{
+                           s.vertices, s.tets, s.edges, s.faces, s.boundary_faces, s.reflex_edges,
+                           s.reflex_vertices, s.pinched_vertices, s.pinched_edges,
+                           s.unreferenced_vertices, s.degenerate_tets, s.inverted_tets,
+                           s.first_degenerate, s.first_inverted, s.components, s.embedded});
 }
 
 // What is refused is refused with the same words.
@@ -167,14 +145,48 @@ void attempt(Writer& out, const std::string& name, Work work) {
   try {
     work();
   } catch (const std::exception& error) {
-    out.text(error.what());
+    std::printf("%s: %s\n", name.c_str(), error.what());
   }
+}
+
+/// Fields from one vertex.
+template <class Domain>
+void fields(Writer& out, const Domain& domain, Index source,
+            const std::vector<std::pair<const char*, Accuracy>>& accuracies = {
+                {"field", Accuracy::usual()}}) {
+  for (const auto& [name, accuracy] : accuracies) {
+    PropagateOptions options;
+    options.accuracy = accuracy;
+    out.array(name, solve(Serial{}, domain, PointSource::at(source), options).distance);
+  }
+}
+
+std::vector<double> flat(const std::vector<std::array<double, 3>>& positions) {
+  std::vector<double> numbers;
+  for (const auto& p : positions) numbers.insert(numbers.end(), p.begin(), p.end());
+  return numbers;
+}
+
+/// One that something is at.
+template <class Simplices>
+Index first_of(const Simplices& simplices) {
+  return simplices.empty() ? 0 : simplices[0][0];
 }
 
 template <class Real>
 void surfaces(Writer& out, const std::string& name, const Surface& s) {
   const std::string real = sizeof(Real) == 4 ? " float" : " double";
-  attempt(out, name + real, [&] { add(out, TriangleMesh<Real>(s.positions, s.faces)); });
+  attempt(out, name + real, [&] {
+    const TriangleMesh<Real> mesh(s.positions, s.faces);
+    add(out, mesh);
+    fields(out, mesh, first_of(s.faces),
+           {{"fast", Accuracy::fast()}, {"accurate", Accuracy::usual()}});
+    if (sizeof(Real) == 8) fields(out, mesh, first_of(s.faces), {{"exact", Accuracy::exact()}});
+  });
+  attempt(out, name + " complex" + real, [&] {
+    const SimplicialComplex<Real, 2> complex(flat(s.positions), 3, s.faces);
+    fields(out, complex, first_of(s.faces));
+  });
   attempt(out, name + " samples" + real, [&] {
     SurfaceHints hints;
     hints.samples = true;
@@ -203,9 +215,8 @@ void surfaces(Writer& out, const std::string& name, const Surface& s) {
     const TriangleMesh<double> input(s.positions, s.faces);
     const IntrinsicDelaunay delaunay(input);
     add(out, delaunay.mesh<Real>());
-    const std::array<std::size_t, 2> counts = {delaunay.summary().flips,
-                                               delaunay.summary().stuck_edges};
-    out.integers("flips", 2, [&](std::size_t i) { return counts[i]; });
+    out.array("flips",
+              std::vector<std::size_t>{delaunay.summary().flips, delaunay.summary().stuck_edges});
     std::vector<double> mapped;
     for (Index f = 0; f < s.faces.size(); f += 1 + static_cast<Index>(s.faces.size() / 999)) {
       const PointSource p = delaunay.to_intrinsic(PointSource::in(f, {0.2, 0.5, 0.3}));
@@ -213,7 +224,7 @@ void surfaces(Writer& out, const std::string& name, const Surface& s) {
       const PointSource q = delaunay.to_input(PointSource::in(f, {0.2, 0.5, 0.3}));
       mapped.insert(mapped.end(), {double(q.simplex), q.barycentric[0], q.barycentric[1]});
     }
-    out.numbers<double>("mapped", mapped.size(), [&](std::size_t i) { return mapped[i]; });
+    out.array("mapped", mapped);
   });
   attempt(out, name + " refined" + real, [&] {
     const TriangleMesh<Real> input(s.positions, s.faces);
@@ -224,7 +235,15 @@ void surfaces(Writer& out, const std::string& name, const Surface& s) {
 template <class Real>
 void solids(Writer& out, const std::string& name, const Solid& s) {
   const std::string real = sizeof(Real) == 4 ? " float" : " double";
-  attempt(out, name + real, [&] { add(out, TetMesh<Real>(s.positions, s.tets)); });
+  attempt(out, name + real, [&] {
+    const TetMesh<Real> mesh(s.positions, s.tets);
+    add(out, mesh);
+    fields(out, mesh, first_of(s.tets));
+  });
+  attempt(out, name + " complex" + real, [&] {
+    const SimplicialComplex<Real, 3> complex(flat(s.positions), 3, s.tets);
+    fields(out, complex, first_of(s.tets));
+  });
   for (const auto& t : s.tets)
     for (const Index v : t)
       if (v >= s.positions.size()) return;
@@ -250,12 +269,8 @@ void solid(Writer& out, const std::string& name, const Solid& s) {
 
 std::string exponent(double x) { return std::to_string(std::lround(std::log10(x))); }
 
-Surface scaled(Surface s, double by) {
-  for (auto& p : s.positions)
-    for (double& x : p) x *= by;
-  return s;
-}
-Solid scaled(Solid s, double by) {
+template <class Shape>
+Shape scaled(Shape s, double by) {
   for (auto& p : s.positions)
     for (double& x : p) x *= by;
   return s;
@@ -374,6 +389,16 @@ void made_solids(Writer& out) {
   solid(out, "same side", bad);
 }
 
+void made_stacks(Writer& out) {
+  std::mt19937 random(1);
+  for (int n = 0; n < 8; ++n)
+    attempt(out, "stack" + std::to_string(n), [&] {
+      const samples::Stack stack = samples::random_stack(random, 20, .1, 1.5);
+      const samples::StackDomain whole(stack);
+      fields(out, whole.domain, 0);
+    });
+}
+
 void file(Writer& out, const std::string& path) {
   const std::string name = std::filesystem::path(path).filename().string();
   const std::string extension = std::filesystem::path(path).extension().string();
@@ -389,18 +414,11 @@ void file(Writer& out, const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (arguments.size() == 3 && arguments[0] == "--compare")
-    return digest::compare(arguments[1], arguments[2]);
-  if (arguments.size() < 2 || arguments[0] != "--save") {
-    std::fputs("usage: bench_digest --save OUT [MESH...]\n       bench_digest --compare OLD NEW\n",
-               stderr);
-    return 2;
-  }
-  Writer out(arguments[1]);
+  Writer out;
   made_surfaces(out);
   made_solids(out);
-  for (std::size_t i = 2; i < arguments.size(); ++i) file(out, arguments[i]);
+  made_stacks(out);
+  for (int i = 1; i < argc; ++i) file(out, argv[i]);
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "bench_digest: %s\n", error.what());

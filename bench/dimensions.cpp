@@ -2,28 +2,17 @@
 // the plain step against the shortest ways by brute force, and how much longer strings take. Around
 // a ball of cells, whose faces are many and small, only the time.
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <random>
-#include <string>
-#include <vector>
 
-#include <plexway/solve.hpp>
-
-#include "harness.hpp"
 #include "propagate/simplex_obstacles.hpp"
-#include "table.hpp"
+#include "solver.hpp"
 
-namespace {
+namespace bench::dimensions {
 
-using bench::Index;
-using plexway::PointSource;
-using plexway::SimplicialComplex;
+using plexway::PointSource, plexway::PropagateOptions, plexway::SimplicialComplex;
 
-struct Effort {
+struct Settings {
   unsigned first = 1, draws = 40, sources = 2, targets = 100, turns = 3;
   std::size_t density = 1, cells = 0;
   int dimension = 0;
@@ -31,8 +20,8 @@ struct Effort {
   bool in_float = false;
 };
 
-plexway::PropagateOptions plain_step() {
-  plexway::PropagateOptions options = bench::one_label();
+PropagateOptions plain_step() {
+  PropagateOptions options = one_label();
   options.visibility = plexway::Visibility::centroid;
   return options;
 }
@@ -63,10 +52,9 @@ class Race {
   explicit Race(unsigned turns) : turns_(turns) {}
 
   void run(const SimplicialComplex<Real, N>& domain, Index source) {
-    const auto timed = [&](const plexway::PropagateOptions& options, double& sum) {
-      sum += bench::processor_seconds([&] {
-        plexway::solve(plexway::Serial{}, domain, PointSource::at(source), options, space_, field_);
-      });
+    Solver solver(domain);
+    const auto timed = [&](const PropagateOptions& options, double& sum) {
+      sum += processor_seconds([&] { solver.solve(source, options); });
     };
     for (unsigned turn = 0; turn < turns_; ++turn) {
       timed({}, strings_);
@@ -75,8 +63,8 @@ class Race {
     simplices_ += static_cast<double>(domain.simplex_count());
     ++solves_;
   }
-  [[nodiscard]] nlohmann::ordered_json row() const {
-    nlohmann::ordered_json row = {{"simplices", simplices_ / solves_}};
+  [[nodiscard]] Row row() const {
+    Row row = {{"simplices", simplices_ / solves_}};
     if (turns_ > 0) {
       row["ns"] = 1e9 * strings_ / (turns_ * simplices_);
       row["ratio"] = strings_ / plain_;
@@ -85,15 +73,12 @@ class Race {
   }
 
  private:
-  plexway::WorkspaceOf<plexway::Serial, SimplicialComplex<Real, N>> space_;
-  plexway::DistanceField<Real> field_;
   unsigned turns_;
   double strings_ = 0, plain_ = 0, simplices_ = 0, solves_ = 0;
 };
 
 template <class Real, int N>
-nlohmann::ordered_json boxes(const Effort& effort, std::size_t cells, unsigned most,
-                             std::size_t density) {
+Row boxes(const Settings& effort, std::size_t cells, unsigned most, std::size_t density) {
   Deviations strings, plain;
   Race<Real, N> race(effort.turns);
   for (unsigned seed = effort.first; seed < effort.first + effort.draws; ++seed) {
@@ -122,25 +107,25 @@ nlohmann::ordered_json boxes(const Effort& effort, std::size_t cells, unsigned m
       }
     }
   }
-  nlohmann::ordered_json row = {{"domain", "1 to " + std::to_string(most) + " boxes"},
-                                {"N", N},
-                                {"cells", cells},
-                                {"distances", strings.count},
-                                {"mean", strings.mean()},
-                                {"worst", strings.worst},
-                                {"worst_draw", strings.worst_draw},
-                                {"below", strings.below},
-                                {"below_draw", strings.below_draw},
-                                {"long", strings.long_by_1e_3},
-                                {"plain_mean", plain.mean()},
-                                {"plain_worst", plain.worst}};
+  Row row = {{"domain", "1 to " + std::to_string(most) + " boxes"},
+             {"N", N},
+             {"cells", cells},
+             {"distances", strings.count},
+             {"mean", strings.mean()},
+             {"worst", strings.worst},
+             {"worst_draw", strings.worst_draw},
+             {"below", strings.below},
+             {"below_draw", strings.below_draw},
+             {"long", strings.long_by_1e_3},
+             {"plain_mean", plain.mean()},
+             {"plain_worst", plain.worst}};
   row.update(race.row());
   return row;
 }
 
 /// The cube without the cells whose centres are within `radius` of its own centre.
 template <class Real, int N>
-nlohmann::ordered_json ball(const Effort& effort, std::size_t cells, double radius) {
+Row ball(const Settings& effort, std::size_t cells, double radius) {
   const auto grid = plexway::testing::cube_grid<N>(cells);
   const auto domain = grid.template complex<Real>([&](const auto& cell) {
     double sum = 0;
@@ -148,9 +133,9 @@ nlohmann::ordered_json ball(const Effort& effort, std::size_t cells, double radi
     return sum < radius * radius;
   });
   Race<Real, N> race(effort.turns);
-  for (const Index source : bench::spread_numbers(effort.sources, grid.vertex_count()))
+  for (const Index source : spread_numbers(effort.sources, grid.vertex_count()))
     if (!domain.corners_at(domain.inside_vertex(source)).empty()) race.run(domain, source);
-  nlohmann::ordered_json row = {{"domain", "a ball of cells"}, {"N", N}, {"cells", cells}};
+  Row row = {{"domain", "a ball of cells"}, {"N", N}, {"cells", cells}};
   row.update(race.row());
   return row;
 }
@@ -162,7 +147,7 @@ struct Boxes {
 };
 
 template <class Real, int N>
-void fill(bench::Table& table, const Effort& effort, std::vector<Boxes> usual, std::size_t density,
+void fill(Table& table, const Settings& effort, std::vector<Boxes> usual, std::size_t density,
           std::size_t ball_cells) {
   if (effort.dimension != 0 && effort.dimension != N) return;
   if (effort.cells != 0) {
@@ -174,56 +159,32 @@ void fill(bench::Table& table, const Effort& effort, std::vector<Boxes> usual, s
   if (effort.domains != "boxes") table.add(ball<Real, N>(effort, ball_cells, .3));
 }
 template <class Real>
-void fill(bench::Table& table, const Effort& effort) {
+void fill(Table& table, const Settings& effort) {
   fill<Real, 2>(table, effort, {{16, 4}}, 2, 60);
   fill<Real, 3>(table, effort, {{8, 3}, {12, 4}, {16, 4}}, 24, 20);
   fill<Real, 4>(table, effort, {{6, 2}, {8, 2}}, 5, 8);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  Effort effort;
-  bench::Report report;
-  CLI::App app("Boxes as obstacles in two, three and four dimensions, against brute force");
-  app.add_option("--draws", effort.draws, "Random domains of each kind")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--first", effort.first, "The first of them")->capture_default_str();
-  app.add_option("--dimension", effort.dimension, "2, 3 or 4 alone");
-  app.add_option("--cells", effort.cells, "So many a side instead of the usual numbers");
-  app.add_option("--domains", effort.domains, "boxes or ball alone")
-      ->check(CLI::IsMember({"all", "boxes", "ball"}))
-      ->capture_default_str();
-  app.add_option("--density", effort.density, "So many times the points on faces for the truth")
-      ->capture_default_str();
-  app.add_option("--sources", effort.sources, "Sources in each")->capture_default_str();
-  app.add_option("--targets", effort.targets, "Random vertices for each")->capture_default_str();
-  app.add_option("--turns", effort.turns, "How often each is timed, 0: errors alone")
-      ->capture_default_str();
-  app.add_flag("--float", effort.in_float, "Lengths in float instead of double");
-  report.add_options(app);
-  CLI11_PARSE(app, argc, argv);
-
-  bench::Table table({{"domain", "domain"},
-                      {"N", "N"},
-                      {"cells", "cells a side"},
-                      {"simplices", "simplices", "%.0f"},
-                      {"distances", "distances"},
-                      {"mean", "strings: mean", "%.1e"},
-                      {"worst", "worst", "%.1e"},
-                      {"worst_draw", "draw"},
-                      {"below", "most below", "%.1e"},
-                      {"below_draw", "draw"},
-                      {"long", "> 1e-3 long"},
-                      {"plain_mean", "plain step: mean", "%.1e"},
-                      {"plain_worst", "worst", "%.1e"},
-                      {"ns", "strings: ns/simplex", "%.0f"},
-                      {"ratio", "x plain step", "%.1f"}});
-  return report.write(table, [&] {
-    if (effort.in_float)
-      fill<float>(table, effort);
-    else
-      fill<double>(table, effort);
-  });
+void run(Arguments& arguments) {
+  Settings settings;
+  arguments.positive("--draws", &settings.draws, "Random domains of each kind");
+  arguments.option("--first", &settings.first, "The first of them");
+  arguments.option("--dimension", &settings.dimension, "2, 3 or 4 alone");
+  arguments.option("--cells", &settings.cells, "So many a side instead of the usual numbers");
+  arguments.option("--domains", &settings.domains, "One kind alone", {"all", "boxes", "ball"});
+  arguments.option("--density", &settings.density,
+                   "So many times the points on faces for the truth");
+  arguments.option("--sources", &settings.sources, "Sources in each");
+  arguments.option("--targets", &settings.targets, "Random vertices for each");
+  arguments.option("--turns", &settings.turns, "How often each is timed, 0: errors alone");
+  arguments.option("--float", &settings.in_float, "Lengths in float instead of double");
+  Table& table = arguments.table(
+      "domain; N; cells: cells a side; simplices %.0f; distances; mean: strings: mean %.1e;"
+      "worst %.1e; worst_draw: draw; below: most below %.1e; below_draw: draw; long: > 1e-3 long;"
+      "plain_mean: plain step: mean %.1e; plain_worst: worst %.1e; ns: strings: ns/simplex %.0f;"
+      "ratio: x plain step %.1f");
+  settings.in_float ? fill<float>(table, settings) : fill<double>(table, settings);
 }
+const Command command("dimensions", "boxes in 2, 3 and 4 dimensions, against brute force", run);
+
+}  // namespace bench::dimensions

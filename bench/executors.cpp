@@ -2,23 +2,14 @@
 // the size of a chunk does, and from what size and number of sources a team is faster. A row says
 // what is asked of it, where something is, and what was measured.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <iostream>
-#include <memory>
-#include <string>
 #include <thread>
-#include <vector>
 
-#include <plexway/solve.hpp>
+#include "solver.hpp"
 
-#include "compare.hpp"
+namespace bench::executors {
 
-namespace {
-
-using plexway::OpenMP;
-using plexway::PointSource;
-using plexway::Serial;
+using plexway::OpenMP, plexway::PointSource, plexway::Serial;
 
 struct Settings {
   std::size_t vertices = 1'000'000, batch_vertices = 50'000;
@@ -36,29 +27,26 @@ double asked_of_field(int threads, std::size_t sources) {
 }
 double asked_of_batch(int threads) { return threads == 2 ? 1.9 : 0; }
 
-void add_row(bench::Table& table, nlohmann::ordered_json row, double asked) {
+void add_row(Table& table, Row row, double asked) {
   if (asked > 0) {
     row["asked"] = asked;
-    row["met"] = row["speed"].get<double>() >= asked ? "yes" : "no";
+    row["met"] = row["speed"].number() >= asked ? "yes" : "no";
   }
   table.add(std::move(row));
 }
 
-std::vector<PointSource> sources_on(const bench::Surface& surface, std::size_t count) {
+std::vector<PointSource> sources_on(const Surface& surface, std::size_t count) {
   std::vector<PointSource> sources;
-  for (const bench::Index v : bench::rotating_sources(surface, count))
-    sources.push_back(PointSource::at(v));
+  for (const Index v : rotating_sources(surface, count)) sources.push_back(PointSource::at(v));
   return sources;
 }
 
 /// Seconds of each of `works`, the least of `repeats`; they take turns, so that all see the same
 /// machine.
-std::vector<double> take_turns(std::size_t repeats,
-                               const std::vector<std::function<void()>>& works) {
+std::vector<double> least_of(std::size_t repeats, const std::vector<std::function<void()>>& works) {
   std::vector<double> least(works.size(), 1e300);
   for (std::size_t r = 0; r < repeats; ++r)
-    for (std::size_t i = 0; i < works.size(); ++i)
-      least[i] = std::min(least[i], bench::seconds(works[i]));
+    for (std::size_t i = 0; i < works.size(); ++i) least[i] = std::min(least[i], seconds(works[i]));
   return least;
 }
 
@@ -67,23 +55,23 @@ std::string named(const std::string& what, int threads) {
 }
 
 template <class Real>
-void measure_field(const bench::Surface& surface, const Settings& settings, std::size_t count,
-                   const std::vector<std::pair<std::string, OpenMP>>& teams, bench::Table& table) {
+void measure_field(const Surface& surface, const Settings& settings, std::size_t count,
+                   const std::vector<std::pair<std::string, OpenMP>>& teams, Table& table) {
   const plexway::TriangleMesh<Real> mesh(surface.positions, surface.faces);
   const auto sources = sources_on(surface, count);
   plexway::Workspace<Real> workspace;
   plexway::DistanceField<Real> field;
   std::vector<std::size_t> expansions(teams.size() + 1);
-  std::vector<std::function<void()>> works = {[&] {
-    plexway::solve(Serial{}, mesh, sources, bench::one_label(), workspace, field);
-    expansions[0] = field.statistics.expansions;
-  }};
-  for (std::size_t i = 0; i < teams.size(); ++i)
-    works.push_back([&, i] {
-      plexway::solve(teams[i].second, mesh, sources, bench::one_label(), workspace, field);
-      expansions[i + 1] = field.statistics.expansions;
+  std::vector<std::function<void()>> works;
+  const auto add = [&](const auto& executor) {
+    works.push_back([&, executor, i = works.size()] {
+      plexway::solve(executor, mesh, sources, one_label(), workspace, field);
+      expansions[i] = field.statistics.expansions;
     });
-  const auto seconds = take_turns(settings.repeats, works);
+  };
+  add(Serial{});
+  for (const auto& team : teams) add(team.second);
+  const auto seconds = least_of(settings.repeats, works);
   for (std::size_t i = 0; i < works.size(); ++i)
     add_row(table,
             {{"what", "field, " + std::to_string(count) + (count == 1 ? " source" : " sources")},
@@ -102,7 +90,7 @@ void measure_field(const bench::Surface& surface, const Settings& settings, std:
 template <class Real>
 class Strangers {
  public:
-  Strangers(const bench::Surface& surface, int threads) : own_(static_cast<std::size_t>(threads)) {
+  Strangers(const Surface& surface, int threads) : own_(static_cast<std::size_t>(threads)) {
     for (auto& mine : own_) mine = std::make_unique<Own>(surface);
   }
   void solve(std::span<const PointSource> sources) {
@@ -110,7 +98,7 @@ class Strangers {
     for (std::size_t i = 0; i < own_.size(); ++i)
       threads.emplace_back([&, i] {
         for (std::size_t k = i; k < sources.size(); k += own_.size())
-          plexway::solve(Serial{}, own_[i]->mesh, sources.subspan(k, 1), bench::one_label(),
+          plexway::solve(Serial{}, own_[i]->mesh, sources.subspan(k, 1), one_label(),
                          own_[i]->workspace, own_[i]->field);
       });
     for (std::thread& thread : threads) thread.join();
@@ -118,7 +106,7 @@ class Strangers {
 
  private:
   struct Own {
-    explicit Own(const bench::Surface& surface) : mesh(surface.positions, surface.faces) {}
+    explicit Own(const Surface& surface) : mesh(surface.positions, surface.faces) {}
     plexway::TriangleMesh<Real> mesh;
     plexway::Workspace<Real> workspace;
     plexway::DistanceField<Real> field;
@@ -127,20 +115,19 @@ class Strangers {
 };
 
 template <class Real>
-void measure_batch(const bench::Surface& surface, const Settings& settings, bench::Table& table) {
+void measure_batch(const Surface& surface, const Settings& settings, Table& table) {
   const plexway::TriangleMesh<Real> mesh(surface.positions, surface.faces);
   const auto list = sources_on(surface, settings.batch);
   const std::span<const PointSource> sources(list);
   std::vector<std::function<void()>> works = {
-      [&] { (void)solve_each(Serial{}, mesh, sources, bench::one_label()); }};
+      [&] { (void)solve_each(Serial{}, mesh, sources, one_label()); }};
   for (const int threads : settings.threads)
-    works.push_back([&, threads] {
-      (void)solve_each(OpenMP{.threads = threads}, mesh, sources, bench::one_label());
-    });
+    works.push_back(
+        [&, threads] { (void)solve_each(OpenMP{.threads = threads}, mesh, sources, one_label()); });
   Strangers<Real> one(surface, 1), all(surface, settings.threads.back());
   works.push_back([&] { one.solve(sources); });
   works.push_back([&] { all.solve(sources); });
-  const auto seconds = take_turns(settings.repeats, works);
+  const auto seconds = least_of(settings.repeats, works);
   const std::size_t teams = settings.threads.size();
   const auto row = [&](const std::string& executor, double time, double reference, double asked) {
     add_row(table,
@@ -161,10 +148,10 @@ void measure_batch(const bench::Surface& surface, const Settings& settings, benc
 
 /// From what size and number of sources is a team faster? What `auto` in the tool goes by.
 template <class Real>
-void measure_sizes(const Settings& settings, bench::Table& table) {
+void measure_sizes(const Settings& settings, Table& table) {
   const int threads = settings.threads.back();
   for (const std::size_t size : settings.sizes) {
-    const bench::Surface surface = bench::bumpy_surface(size);
+    const Surface surface = bumpy_surface(size);
     for (const std::size_t count : settings.counts)
       measure_field<Real>(surface, settings, count,
                           {{named("OpenMP", threads), OpenMP{.threads = threads}}}, table);
@@ -172,23 +159,16 @@ void measure_sizes(const Settings& settings, bench::Table& table) {
 }
 
 template <class Real>
-void measure_all(const Settings& settings, bench::Table& table) {
-  const bench::Surface large = bench::bumpy_surface(settings.vertices);
+void measure_all(const Settings& settings, Table& table) {
+  const Surface large = bumpy_surface(settings.vertices);
   std::vector<std::pair<std::string, OpenMP>> teams;
   for (const int threads : settings.threads)
     teams.push_back({named("OpenMP", threads), OpenMP{.threads = threads}});
-  for (const std::size_t count : settings.sources) {
-    std::cerr << "field from " << count << " sources" << std::endl;
+  for (const std::size_t count : settings.sources)
     measure_field<Real>(large, settings, count, teams, table);
-  }
-  std::cerr << "batch" << std::endl;
-  measure_batch<Real>(bench::bumpy_surface(settings.batch_vertices), settings, table);
-  if (!settings.sizes.empty()) {
-    std::cerr << "sizes" << std::endl;
-    measure_sizes<Real>(settings, table);
-  }
+  measure_batch<Real>(bumpy_surface(settings.batch_vertices), settings, table);
+  measure_sizes<Real>(settings, table);
   if (settings.chunks.empty()) return;
-  std::cerr << "chunks" << std::endl;
   teams.clear();
   for (const std::size_t chunk : settings.chunks)
     teams.push_back({named("OpenMP", settings.threads.back()) + ", chunk " + std::to_string(chunk),
@@ -197,51 +177,28 @@ void measure_all(const Settings& settings, bench::Table& table) {
     measure_field<Real>(large, settings, count, teams, table);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+void run(Arguments& arguments) {
   Settings settings;
-  bench::Report report;
-  bool double_precision = false;
-  CLI::App app("OpenMP against Serial: one table");
-  app.add_option("--vertices", settings.vertices, "Of the surface that one field is solved on")
-      ->capture_default_str();
-  app.add_option("--batch-vertices", settings.batch_vertices, "Of the surface of the batch")
-      ->capture_default_str();
-  app.add_option("--sources", settings.sources, "Of one field")
-      ->delimiter(',')
-      ->capture_default_str();
-  app.add_option("--batch", settings.batch, "Fields in the batch")->capture_default_str();
-  app.add_option("--repeats", settings.repeats, "Turns; the least time counts")
-      ->capture_default_str();
-  app.add_option("--threads", settings.threads, "Teams (default: 1 and one a core)")
-      ->delimiter(',');
-  app.add_option("--chunks", settings.chunks, "Chunks for the last team; none leaves that out")
-      ->delimiter(',')
-      ->expected(0, -1)
-      ->capture_default_str();
-  app.add_option("--sizes", settings.sizes, "Vertices of surfaces that teams are tried on")
-      ->delimiter(',')
-      ->expected(0, -1)
-      ->capture_default_str();
-  app.add_option("--counts", settings.counts, "Sources on each of them")
-      ->delimiter(',')
-      ->capture_default_str();
-  app.add_flag("--double", double_precision, "Double instead of float");
-  report.add_options(app);
-  CLI11_PARSE(app, argc, argv);
+  bool twice = false;
+  arguments.option("--vertices", &settings.vertices, "Of the surface that one field is solved on");
+  arguments.option("--batch-vertices", &settings.batch_vertices, "Of the surface of the batch");
+  arguments.option("--sources", &settings.sources, "Of one field");
+  arguments.option("--batch", &settings.batch, "Fields in the batch");
+  arguments.option("--repeats", &settings.repeats, "Turns; the least time counts");
+  arguments.option("--threads", &settings.threads, "Teams (default: 1 and one a core)");
+  arguments.option("--chunks", &settings.chunks,
+                   "Chunks for the last team; `none` leaves that out");
+  arguments.option("--sizes", &settings.sizes, "Vertices of surfaces that teams are tried on");
+  arguments.option("--counts", &settings.counts, "Sources on each of them");
+  arguments.option("--double", &twice, "Double instead of float");
+  Table& table = arguments.table(
+      "what; vertices; executor; ms %.1f; speed: times Serial %.2f; asked %.2f; met;"
+      "expansions: expansions a face %.3f");
   if (settings.threads.empty())
     settings.threads = {1, static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u))};
-
-  bench::Table table({{"what", "what"},
-                      {"vertices", "vertices"},
-                      {"executor", "executor"},
-                      {"ms", "ms", "%.1f"},
-                      {"speed", "times Serial", "%.2f"},
-                      {"asked", "asked", "%.2f"},
-                      {"met", "met"},
-                      {"expansions", "expansions a face", "%.3f"}});
-  return report.write(table, [&] {
-    double_precision ? measure_all<double>(settings, table) : measure_all<float>(settings, table);
-  });
+  twice ? measure_all<double>(settings, table) : measure_all<float>(settings, table);
 }
+const Command command("executors", "several threads beside one: fields, batches, chunks, sizes",
+                      run);
+
+}  // namespace bench::executors

@@ -1,20 +1,17 @@
 #!/usr/bin/env python3
 """What the first answer costs, and the solves that lag: asked beside measured, as Markdown.
 
-    bench/first.py BUILD [--data FOLDER] [--scan FILE] [--before BUILD|COMMIT] [--turns N] [--only TEXT]
+    bench/first.py BUILD [--data FOLDER] [--scan FILE] [--before BUILD] [--turns N] [--only TEXT]
 
-BUILD is a build folder with bin/plexway, bin/bench_build, bin/bench_clouds, bin/bench_solids and bin/bench_peers (or
-bench_cgal); --before another one, which takes turns with it. Of a COMMIT bench_build is built and kept (bench/before),
-and building alone is measured, beside how many times as fast it was to become; `rewritten` is the commit before building
-was rewritten, which the figures asked for are of. FOLDER has `surfaces` and `solids` with their exact
-answers; what needs it is left out without. FILE is a scan, by default the dragon of data/fetch.sh, or a surface made here. The least of the
-turns counts; ratios to Dijkstra are medians inside one process (bench/harness.hpp), of which the least counts too.
+BUILD is a build folder with bin/plexway and bin/bench; --before another one, which takes turns with it. FOLDER has
+`surfaces` and `solids` with their exact answers; what needs it is left out without. FILE is a scan, by default the dragon
+of data/fetch.sh, or a surface made here. The least of the turns counts; ratios to Dijkstra are medians inside one process
+(bench/measure.hpp), of which the least counts too.
 """
 import argparse
 import glob
 import json
 import os
-import shutil
 import statistics
 import subprocess
 import sys
@@ -23,58 +20,15 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
-def sources_of(commit, folder):
-    """What is in a commit, with the bench_build of today."""
-    root = os.path.dirname(HERE)
-    os.makedirs(folder)
-    archive = subprocess.Popen(["git", "-C", root, "archive", commit], stdout=subprocess.PIPE)
-    subprocess.run(["tar", "-x", "-C", folder], stdin=archive.stdout, check=True)
-    if archive.wait():
-        raise RuntimeError(f"no sources of {commit}")
-    with open(os.path.join(folder, "include", "plexway", "complex", "intrinsic_delaunay.hpp"), encoding="utf-8") as file:
-        today = "TriangulatedSurface" in file.read()
-    for old in glob.glob(os.path.join(folder, "bench", "*.cpp")):
-        os.remove(old)
-    for name in ("build.cpp", "processor_time.hpp", "built.hpp" if today else "before/built.hpp"):
-        shutil.copy(os.path.join(HERE, name), os.path.join(folder, "bench"))
-
-
-def build_of(commit):
-    """A build folder with the bench_build of a commit and nothing else, made once and kept beside the tree."""
-    commit = BEFORE if commit == "rewritten" else commit
-    found = subprocess.run(["git", "-C", HERE, "rev-parse", "--verify", "--quiet", commit + "^{commit}"],
-                           capture_output=True, text=True)
-    if found.returncode:
-        raise RuntimeError(f"--before {commit}: neither a build folder nor a commit of this repository")
-    number = found.stdout.strip()[:12]
-    folder = os.path.join(os.path.dirname(HERE), f"build-before-{number}")
-    tree, build = os.path.join(folder, "tree"), os.path.join(folder, "build")
-    if not os.path.exists(tree):
-        with tempfile.TemporaryDirectory(dir=os.path.dirname(HERE), prefix="build-before-") as fresh:
-            sources_of(number, os.path.join(fresh, "tree"))
-            os.makedirs(folder, exist_ok=True)
-            os.rename(os.path.join(fresh, "tree"), tree)
-    print(f"building bench_build of {number}", file=sys.stderr, flush=True)
-    without = [f"-DPLEXWAY_WITH_{name}=OFF" for name in ("TETGEN", "FLANN", "PCL", "OPENVDB", "GL", "RENDER")]
-    no = [f"-DPLEXWAY_BUILD_{name}=OFF" for name in ("TOOL", "TESTS", "EXAMPLES")]
-    for command in ([os.path.join(tree, ".ci", "configure"), build, "-DPLEXWAY_BUILD_BENCH=ON", *no, *without],
-                    ["nice", "cmake", "--build", build, "--parallel", "2", "--target", "bench_build"]):
-        subprocess.run(command, check=True, capture_output=True, text=True)
-    return build
-
-
 class Build:
     """The programs of a build folder; what they print is JSON."""
 
     def __init__(self, folder):
         self.bin = os.path.join(os.path.abspath(folder), "bin")
 
-    def has(self, name):
-        return os.path.exists(os.path.join(self.bin, name))
-
-    def run(self, name, *words, quiet=True):
-        done = subprocess.run([os.path.join(self.bin, name), *words, *(["--json"] if quiet else [])], check=True,
-                              capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    def run(self, name, *words):
+        done = subprocess.run([os.path.join(self.bin, name), *words, "--json"], check=True, capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL)
         return json.loads(done.stdout)
 
     def used(self, folder, name, *words):
@@ -92,7 +46,7 @@ class Build:
 def building(build, scan, folder, data):
     """Nanoseconds and bytes each, from surfaces and solids in memory to ready."""
     solids = glob.glob(os.path.join(data, "solids", "notch_100k.node")) if data else []
-    rows = build.run("bench_build", scan, *solids, "--sizes", "100000", "--repeats", "3")
+    rows = build.run("bench", "build", scan, *solids, "--sizes", "100000", "--repeats", "3")
     name = os.path.splitext(os.path.basename(scan))[0]
     keys = {"surface, float": "surface, float", "by Delaunay, float": "Delaunay, float"}
     for row in rows:
@@ -114,7 +68,7 @@ def threads(build, scan, folder, data):
     solids = glob.glob(os.path.join(data, "solids", "notch_100k.node")) if data else []
     name = os.path.splitext(os.path.basename(scan))[0]
     ns = [{(row["input"], row["built"]): row["ns"]
-           for row in build.run("bench_build", scan, *solids, "--sizes", "100000", "--repeats", "3", "--threads", str(n))}
+           for row in build.run("bench", "build", scan, *solids, "--sizes", "100000", "--repeats", "3", "--threads", str(n))}
           for n in (1, 2)]
     for built in ("surface, float", "by Delaunay, float"):
         yield f"{built}: two threads, share of the time of one", ns[1][name, built] / ns[0][name, built]
@@ -124,7 +78,7 @@ def threads(build, scan, folder, data):
 
 
 def clouds(build, scan, folder, data):
-    for row in build.run("bench_clouds", "--generated", "100000", "--kinds", "sphere", "--sources", "2", "--repeats", "1"):
+    for row in build.run("bench", "clouds", "--generated", "100000", "--kinds", "sphere", "--sources", "2", "--repeats", "1"):
         yield "cloud of 100,000 points after its neighbours: us a point", row["build_us"]
 
 
@@ -152,7 +106,7 @@ def solids(build, scan, folder, data):
     with tempfile.TemporaryDirectory(dir=folder) as some:
         for name in glob.glob(os.path.join(data, "solids", "cavity_100k.*")):
             os.symlink(os.path.abspath(name), os.path.join(some, os.path.basename(name)))
-        rows = build.run("bench_solids", some, "--sizes", "12,70", "--sources", "3", "--repeats", "1", "--budget", "10",
+        rows = build.run("bench", "solids", some, "--sizes", "12,70", "--sources", "3", "--repeats", "1", "--budget", "10",
                          "--processor")
     by = {row["mesh"]: row for row in rows}
     if "cavity_100k" in by:
@@ -166,11 +120,11 @@ def fast(build, scan, folder, data):
     meshes = sorted(glob.glob(os.path.join(data, "surfaces", "*.obj"))) if data else []
     if not meshes:
         return
-    rows = build.run("bench_peers" if build.has("bench_peers") else "bench_cgal", *meshes, "--only", "saddles, float",
+    rows = build.run("bench", "peers", *meshes, "--only", "saddles, float",
                      "--sources", "6", "--repeats", "2", "--budget", "5", "--processor")
     ratios = {row["mesh"]: row["ratio"] for row in rows if "ratio" in row}
     if not ratios:
-        raise RuntimeError("bench_peers measured nothing: " + "; ".join(sorted({row.get("note", "") for row in rows})))
+        raise RuntimeError("bench peers measured nothing: " + "; ".join(sorted({row.get("note", "") for row in rows})))
     yield "`fast` on the input's triangles: x Dijkstra, median of the meshes", statistics.median(ratios.values())
     yield f"the same, worst ({max(ratios, key=ratios.get)})", max(ratios.values())
 
@@ -198,23 +152,6 @@ ASKED = {
 }
 
 
-# How many times as fast building was asked to be, by figures of another machine: 1,600 to 400, 4,700 to 800, and
-# 430 to 480 to 200. What another machine needs it does not tell, so this is what to hold beside the version before.
-BEFORE = "6e7533e"
-WANTED_FASTER = {"surface, float": 4.0, "Delaunay, float": 5.9, "solid, float": 2.2}
-
-
-def faster(now, before):
-    """Rows of what was asked and what is, as ratios, by cycles and by instructions and by the processor's time."""
-    for what, wanted in WANTED_FASTER.items():
-        for measure in ("cycles", "instructions", "ns"):
-            for key in now:
-                if key.startswith(f"{what}: {measure} ") and before.get(key):
-                    ratio = before[key] / now[key]
-                    bold = "**" if ratio < wanted else ""
-                    yield f"| {what}: {measure} | {wanted} | {before[key]:.0f} | {now[key]:.0f} | {bold}{ratio:.2f}{bold} |"
-
-
 def made_here(build, folder):
     subprocess.run([os.path.join(build.bin, "plexway_generate_data"), folder, "bumpy-400k"], check=True,
                    stdout=subprocess.DEVNULL)
@@ -232,12 +169,8 @@ def main():
     add("--turns", type=int, default=3)
     add("--only", metavar="TEXT", choices=list(PARTS), action="append")
     given = parser.parse_args()
-    of_commit = given.before and not os.path.isdir(os.path.join(given.before, "bin"))
-    if of_commit and not set(given.only or ["building"]) <= {"building"}:
-        parser.error("--before COMMIT goes with --only building")
-    parts = ["building"] if of_commit else given.only or PARTS
-    before = [build_of(given.before) if of_commit else given.before] if given.before else []
-    builds = [Build(folder) for folder in [given.build, *before]]
+    parts = given.only or PARTS
+    builds = [Build(folder) for folder in [given.build, *([given.before] if given.before else [])]]
     with tempfile.TemporaryDirectory() as folder:
         fetched = os.path.join(os.path.dirname(HERE), "data", "fetched", "dragon_vrip.ply")
         scan = given.scan or (fetched if os.path.exists(fetched) else made_here(builds[0], folder))
@@ -257,9 +190,6 @@ def main():
         missed = asked and value > float(asked)
         old = f" {found[1].get(key, float('nan')):.3g} |" if given.before else ""
         print(f"| {key} | {asked} | {once} |{old} {'**' if missed else ''}{value:.3g}{'**' if missed else ''} |")
-    if given.before and "building" in parts:
-        print("\n| times as fast as the version before | wanted | before | now | ratio |\n|---|---:|---:|---:|---:|")
-        print("\n".join(faster(*found)))
     return 0
 
 

@@ -1,257 +1,146 @@
 #pragma once
 
-// What the benchmarks share: surfaces, sources that rotate, times side by side, errors against
-// exact answers.
+// What every benchmark is made of: a command with options, and a table of named values. The
+// libraries behind it are read in harness.cpp alone, which is what keeps benchmarks quick to
+// compile.
 
-#include <algorithm>
-#include <array>
-#include <chrono>
-#include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <limits>
-#include <numeric>
-#include <optional>
-#include <span>
+#include <functional>
+#include <initializer_list>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
-
-#include <plexway/complex/ids.hpp>
-#include <plexway/io/triangles.hpp>
-#include <plexway/propagate/options.hpp>
-
-#include "processor_time.hpp"
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 namespace bench {
 
-/// Labels, one a triangle: what tables call fast, and what orders, policies and executors are
-/// compared with. What is not asked for by name is windows (bench_windows compares both).
-inline plexway::PropagateOptions one_label() {
-  plexway::PropagateOptions options;
-  options.accuracy = plexway::Accuracy::fast();
-  return options;
-}
-
-using plexway::Index;
-
-struct Surface {
-  std::string name;
-  std::vector<std::array<double, 3>> positions;
-  std::vector<std::array<Index, 3>> faces;
-};
-
-inline Surface read_surface(const std::filesystem::path& file) {
-  auto read = plexway::io::read_triangles(file);
-  return {file.stem().string(), std::move(read.positions), std::move(read.triangles)};
-}
-
-// ---- Times ----
-
-inline double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return (*middle + *std::max_element(values.begin(), middle)) / 2;
-}
-
-/// Seconds that `work` takes.
-template <class Work>
-double seconds(const Work& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// How often to measure: every source `repeats` times, but no longer than `budget` seconds.
-struct Effort {
-  std::size_t sources = 16;
-  std::size_t repeats = 3;
-  double budget = 20;
-  /// An untimed solve before each timed one: caches then hold the solver's own data, as when one
-  /// field after another is computed, rather than the other solver's.
-  bool warm = false;
-  /// Times are the processor's: for one thread on a machine that others use too.
-  bool processor = false;
-};
-
-/// Medians of two solvers that took turns.
-struct Times {
-  double first = 0;  ///< seconds a solve
-  double second = 0;
-  double ratio = 0;  ///< of second to first, the median over the turns
-  std::size_t turns = 0;
-};
-
-/// Lets two solvers take turns (A B A B ...), so that both meet the same clock and the same noise.
-/// The source changes with each turn, and the second solver is half a rotation ahead: the branch
-/// predictor learns a run by heart, be it the last one of the same solver or of one like it.
-template <class First, class Second>
-Times take_turns(std::span<const Index> sources, const Effort& effort, const First& first,
-                 const Second& second) {
-  std::vector<double> a;
-  std::vector<double> b;
-  std::vector<double> ratios;
-  const auto timed = [&](const auto& work) {
-    return effort.processor ? processor_seconds(work) : seconds(work);
-  };
-  const auto turn = [&](std::size_t i) {
-    const std::size_t ahead = (i + sources.size() / 2) % sources.size();
-    const std::size_t other = (i + sources.size() / 3) % sources.size();
-    if (effort.warm) first(sources[other]);
-    a.push_back(timed([&] { first(sources[i]); }));
-    if (effort.warm) second(sources[other]);
-    b.push_back(timed([&] { second(sources[ahead]); }));
-    ratios.push_back(b.back() / a.back());
-    return a.back() + b.back();
-  };
-  // The first turn warms up, unless a single turn is all that the budget allows.
-  double spent = turn(sources.size() - 1);
-  if (spent < effort.budget) {
-    a.clear();
-    b.clear();
-    ratios.clear();
-  }
-  for (std::size_t repeat = 0; repeat < effort.repeats; ++repeat)
-    for (std::size_t i = 0; i < sources.size(); ++i)
-      if (ratios.empty() || spent < effort.budget) spent += turn(i);
-  return {median(a), median(b), median(ratios), ratios.size()};
-}
-
-// ---- Sources ----
-
-/// `count` numbers below `size`, in steps of the golden section: spread out, and never two
-/// neighbours in a row.
-inline std::vector<Index> spread_numbers(std::size_t count, std::size_t size) {
-  std::vector<Index> numbers;
-  double place = 0.5;
-  for (std::size_t i = 0; i < count; ++i) {
-    numbers.push_back(static_cast<Index>(place * static_cast<double>(size)));
-    place = std::fmod(place + 0.6180339887498949, 1.0);
-  }
-  return numbers;
-}
-
-/// `count` vertices from all over the largest component; always the same for the same surface.
-inline std::vector<Index> rotating_sources(const Surface& surface, std::size_t count) {
-  std::vector<Index> parent(surface.positions.size());
-  std::iota(parent.begin(), parent.end(), Index{0});
-  const auto root = [&](Index v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const auto& [a, b, c] : surface.faces) {
-    parent[root(a)] = root(b);
-    parent[root(b)] = root(c);
-  }
-  std::vector<std::size_t> size(parent.size(), 0);
-  for (Index v = 0; v < parent.size(); ++v) ++size[root(v)];
-  const auto largest =
-      static_cast<Index>(std::max_element(size.begin(), size.end()) - size.begin());
-  std::vector<Index> members;
-  for (Index v = 0; v < parent.size(); ++v)
-    if (root(v) == largest) members.push_back(v);
-  auto sources = spread_numbers(count, members.size());
-  for (Index& source : sources) source = members[source];
-  return sources;
-}
-
-// ---- Exact answers ----
-
-struct Truth {
-  Index source = 0;
-  std::vector<double> distance;  ///< one a vertex; NaN where not known
-};
-
-/// The exact answers NAME.vID.txt in `folder`: one value a line in vertex order, from vertex ID.
-inline std::vector<Truth> read_truths(const std::filesystem::path& folder, const Surface& surface) {
-  std::vector<Truth> truths;
-  if (folder.empty() || !std::filesystem::is_directory(folder)) return truths;
-  const std::string prefix = surface.name + ".v";
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string file = entry.path().filename().string();
-    if (!file.starts_with(prefix) || !file.ends_with(".txt")) continue;
-    const std::string id = file.substr(prefix.size(), file.size() - prefix.size() - 4);
-    if (id.empty() || id.find_first_not_of("0123456789") != std::string::npos) continue;
-    Truth truth{static_cast<Index>(std::stoul(id)), {}};
-    std::ifstream in(entry.path());
-    for (std::string line; std::getline(in, line);) truth.distance.push_back(std::stod(line));
-    if (truth.distance.size() != surface.positions.size() || truth.source >= truth.distance.size())
-      throw std::runtime_error(entry.path().string() + ": not one value for each vertex of " +
-                               surface.name);
-    truths.push_back(std::move(truth));
-  }
-  std::sort(truths.begin(), truths.end(),
-            [](const Truth& a, const Truth& b) { return a.source < b.source; });
-  return truths;
-}
-
-/// Relative errors, pooled over sources. `wrong` counts what has no error in per cent: NaN, a
-/// finite distance where no path leads, +inf where one does, a source that is not at 0.
-class Errors {
+/// A cell of a table: nothing, a number or text.
+class Value {
  public:
-  void add(const Truth& truth, std::span<const double> found) {
-    for (std::size_t v = 0; v < found.size(); ++v) {
-      const double exact = truth.distance[v];
-      if (std::isnan(exact)) continue;
-      const bool comparable = std::isfinite(exact) && std::isfinite(found[v]);
-      if (comparable && exact > 0)
-        signed_.push_back(found[v] / exact - 1);
-      else if (found[v] != exact)  // both +inf, or both 0, are right
-        ++wrong_;
-    }
-  }
+  enum class Kind { none, real, whole, text };
+  Value() = default;
+  Value(double number);
+  Value(std::int64_t number);
+  Value(std::string text);
+  Value(const char* text);
+  template <std::integral T>
+  Value(T number) : Value(static_cast<std::int64_t>(number)) {}
 
-  struct Summary {
-    double mean, p99, max;
-    double most_below;  ///< most negative signed error; 0 if there is none
-    std::size_t wrong;
-  };
-
-  [[nodiscard]] std::optional<Summary> summary() const {
-    if (signed_.empty()) return std::nullopt;
-    std::vector<double> size(signed_.size());
-    std::transform(signed_.begin(), signed_.end(), size.begin(),
-                   [](double e) { return std::abs(e); });
-    std::sort(size.begin(), size.end());
-    const double count = static_cast<double>(size.size());
-    const auto rank = static_cast<std::size_t>(std::ceil(0.99 * count)) - 1;
-    return Summary{std::accumulate(size.begin(), size.end(), 0.0) / count, size[rank], size.back(),
-                   std::min(0.0, *std::min_element(signed_.begin(), signed_.end())), wrong_};
-  }
+  [[nodiscard]] Kind kind() const { return kind_; }
+  [[nodiscard]] std::int64_t whole() const { return whole_; }
+  /// NaN for what is none.
+  [[nodiscard]] double number() const;
+  [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
-  std::vector<double> signed_;
-  std::size_t wrong_ = 0;
+  Kind kind_ = Kind::none;
+  std::int64_t whole_ = 0;
+  double real_ = 0;
+  std::string text_;
 };
 
-// ---- Memory ----
+/// Values by their keys, in the order in which they came.
+class Row {
+ public:
+  using Cell = std::pair<std::string, Value>;
+  Row();
+  Row(std::initializer_list<Cell> cells);
+  Row(const Row&);
+  Row(Row&&) noexcept;
+  Row& operator=(const Row&);
+  Row& operator=(Row&&) noexcept;
+  ~Row();
 
-/// Gives freed memory back to the system, where that can be asked for, so that it does not count as
-/// resident.
-inline void return_free_memory() {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
-}
+  Value& operator[](std::string_view key);
+  /// Null where there is none.
+  [[nodiscard]] const Value* find(std::string_view key) const;
+  Row& update(const Row& more);
+  [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
 
-/// A line of this process's status, such as VmRSS (resident now) or VmHWM (its peak), in bytes;
-/// nothing on systems without it.
-inline std::optional<double> status_bytes(std::string_view key) {
-  std::ifstream in("/proc/self/status");
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with(key) && line.size() > key.size() && line[key.size()] == ':')
-      return 1024 * std::stod(line.substr(key.size() + 1));
-  return std::nullopt;
-}
+ private:
+  std::vector<Cell> cells_;
+};
+
+/// Runs `work` in a process of its own and hands back its row, or one with the key `note` that says
+/// what happened: the message of an exception, a crash, no end after `limit` seconds. So what
+/// crashes or hangs costs one row, and each row starts with the same heap.
+Row isolated(double limit, const std::function<Row()>& work);
+
+/// Rows, printed as Markdown for people or as JSON for programs.
+class Table {
+ public:
+  /// What to show: "key: header %format", separated by semicolons; a key alone is its header, and
+  /// rows may have more.
+  explicit Table(std::string_view columns);
+
+  void add(Row row) { rows_.push_back(std::move(row)); }
+  /// A row made by `isolated`, after `head`, which goes to stderr before.
+  Row& measure(Row head, double limit, const std::function<Row()>& work);
+  [[nodiscard]] std::vector<Row>& rows() { return rows_; }
+
+  [[nodiscard]] std::string markdown() const;
+  [[nodiscard]] std::string json() const;
+
+ private:
+  struct Column {
+    std::string key, header, format;
+  };
+  std::vector<Column> columns_;
+  std::vector<Row> rows_;
+};
+
+/// Ends a command with this code and a line on stderr.
+struct Exit : std::runtime_error {
+  Exit(int exit_code, const std::string& message) : std::runtime_error(message), code(exit_code) {}
+  int code;
+};
+
+/// The options of a command. Each is bound to a variable, which holds the default; they are read
+/// when the table is asked for, or by `parse`.
+class Arguments {
+ public:
+  using Variable =
+      std::variant<int*, unsigned*, std::size_t*, double*, std::string*, std::vector<int>*,
+                   std::vector<unsigned>*, std::vector<std::size_t>*, std::vector<double>*,
+                   std::vector<std::string>*>;
+  Arguments(const std::string& program, const std::string& about, std::vector<std::string> words);
+  ~Arguments();
+
+  void option(const std::string& name, bool* flag, const std::string& about);
+  /// Lists of numbers may have commas; `none` is an empty list. A name without dashes is
+  /// positional.
+  void option(const std::string& name, Variable variable, const std::string& about,
+              const std::vector<std::string>& choices = {});
+  void required(const std::string& name, Variable variable, const std::string& about);
+  /// A list with commas.
+  void names(const std::string& name, std::vector<std::string>* names, const std::string& about);
+  /// A number above 0.
+  void positive(const std::string& name, Variable variable, const std::string& about);
+  /// For rows in processes of their own; `limit` has what was given.
+  void add_limit(double usual = 600);
+  double limit = 0;
+
+  void parse();
+  Table& table(std::string_view columns);
+  /// What main prints when the command has run.
+  [[nodiscard]] int print() const;
+
+ private:
+  struct Hidden;
+  std::unique_ptr<Hidden> hidden_;
+};
+
+/// A command of the program that its file is linked into, by a variable at namespace scope.
+struct Command {
+  Command(const char* name, const char* about, void (*run)(Arguments&));
+  const char *name, *about;
+  void (*run)(Arguments&);
+};
 
 }  // namespace bench

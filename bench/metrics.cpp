@@ -1,21 +1,15 @@
 // What metrics cost in accuracy, against closed forms: two speeds and Snell's law, by edges that
 // refract and by one length an edge; a speed that rises evenly; a constant tensor.
 
-#include <CLI/CLI.hpp>
 #include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
 
 #include <plexway/complex/intrinsic_delaunay.hpp>
 #include <plexway/metric/edge_lengths.hpp>
-#include <plexway/solve.hpp>
 
 #include "../data/two_speeds.hpp"
-#include "harness.hpp"
-#include "table.hpp"
+#include "solver.hpp"
 
-namespace {
+namespace bench::metrics {
 
 namespace metric = plexway::metric;
 using metric::Point;
@@ -29,7 +23,7 @@ struct Case {
 };
 
 template <class Real>
-nlohmann::ordered_json measure(const samples::HalvedSquare& square, const Case& one, double y) {
+Row measure(const samples::HalvedSquare& square, const Case& one, double y) {
   const auto lengths = metric::triangle_lengths(square.points, square.faces, one.metric);
   plexway::SurfaceHints hints;
   hints.refracts = one.refracts;
@@ -38,31 +32,24 @@ nlohmann::ordered_json measure(const samples::HalvedSquare& square, const Case& 
     const plexway::TriangleMesh<double> input(square.points.size(), square.faces, lengths, hints);
     mesh = plexway::IntrinsicDelaunay(input).mesh<Real>();
   }
-  const bench::Index source = square.nearest(0.3, y);
-  const auto at = plexway::PointSource::at(source);
-  plexway::Workspace<Real> workspace;
-  plexway::DistanceField<Real> field;
+  const Index source = square.nearest(0.3, y);
+  Solver solver(mesh, one_label());
   std::vector<double> ns, exact;
   for (int repeat = 0; repeat < 5; ++repeat)
-    ns.push_back(1e9 * bench::seconds([&] {
-                   plexway::solve(plexway::Serial{}, mesh, std::span(&at, 1), bench::one_label(),
-                                  workspace, field);
-                 }) /
+    ns.push_back(1e9 * seconds([&] { solver(source); }) /
                  static_cast<double>(square.points.size()));
   for (const Point& p : square.points) exact.push_back(one.exact(square.points[source], p));
-  bench::Errors errors;
-  errors.add({source, exact}, std::vector<double>(field.distance.begin(), field.distance.end()));
-  const auto found = errors.summary();
-  return {
-      {"law", one.law},
-      {"sides", one.sides},
-      {"vertices", square.points.size()},
-      {"y", y},
-      {"violated", metric::find_violations(std::span<const std::array<double, 3>>(lengths)).count},
-      {"mean", found->mean},
-      {"max", found->max},
-      {"below", found->most_below},
-      {"ns", bench::median(ns)}};
+  Errors errors;
+  errors.add({source, exact}, solver.distance());
+  const std::span<const std::array<double, 3>> sides = lengths;
+  Row row = {{"law", one.law},
+             {"sides", one.sides},
+             {"vertices", square.points.size()},
+             {"y", y},
+             {"violated", metric::find_violations(sides).count}};
+  add_errors(row, errors);
+  row["ns"] = median(ns);
+  return row;
 }
 
 std::vector<Case> cases(const samples::HalvedSquare& square) {
@@ -112,38 +99,23 @@ std::vector<Case> cases(const samples::HalvedSquare& square) {
   return all;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  std::vector<std::uint32_t> cells = {20, 50, 100, 200};
+void run(Arguments& arguments) {
+  std::vector<Index> cells = {20, 50, 100, 200};
   double shake = 0.35;
-  bool double_precision = false;
-  bench::Report report;
-  CLI::App app("Metrics on a square, against closed forms");
-  app.add_option("--cells", cells, "Cells a side, even numbers")
-      ->delimiter(',')
-      ->capture_default_str();
-  app.add_option("--shake", shake, "Vertices are moved by so many cells")->capture_default_str();
-  app.add_flag("--double", double_precision, "Double instead of float");
-  report.add_options(app);
-  CLI11_PARSE(app, argc, argv);
-
-  bench::Table table({{"law", "metric"},
-                      {"sides", "shared edges"},
-                      {"vertices", "vertices"},
-                      {"y", "source at y"},
-                      {"violated", "violated"},
-                      {"mean", "error mean", "%.1e"},
-                      {"max", "max", "%.1e"},
-                      {"below", "most below", "%.1e"},
-                      {"ns", "ns/V", "%.0f"}});
-  return report.write(table, [&] {
-    for (const std::uint32_t n : cells) {
-      const samples::HalvedSquare square(n, shake);
-      for (const Case& one : cases(square))
-        for (const double y : {0.25, -0.25})
-          table.add(double_precision ? measure<double>(square, one, y)
-                                     : measure<float>(square, one, y));
-    }
-  });
+  bool twice = false;
+  arguments.option("--cells", &cells, "Cells a side, even numbers");
+  arguments.option("--shake", &shake, "Vertices are moved by so many cells");
+  arguments.option("--double", &twice, "Double instead of float");
+  Table& table = arguments.table(
+      "law: metric; sides: shared edges; vertices; y: source at y; violated;"
+      "mean: error mean %.1e; max %.1e; below: most below %.1e; ns: ns/V %.0f");
+  for (const Index n : cells) {
+    const samples::HalvedSquare square(n, shake);
+    for (const Case& one : cases(square))
+      for (const double y : {0.25, -0.25})
+        table.add(twice ? measure<double>(square, one, y) : measure<float>(square, one, y));
+  }
 }
+const Command command("metrics", "metrics on a square, against closed forms", run);
+
+}  // namespace bench::metrics

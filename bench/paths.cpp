@@ -1,208 +1,182 @@
 // Paths, searches for a target and bounded searches.
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <ctime>
-#include <filesystem>
-#include <limits>
+#include <numeric>
 #include <random>
 #include <set>
-#include <string>
-#include <vector>
 
 #include <plexway/apps/bounded_search.hpp>
 #include <plexway/apps/path_field.hpp>
 #include <plexway/apps/path_search.hpp>
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/error.hpp>
-#include <plexway/io/triangles.hpp>
-#include <plexway/solve.hpp>
 
-#include "harness.hpp"
+#include "scenes.hpp"
+#include "solver.hpp"
 
-using namespace plexway;
-using bench::median;
-using bench::seconds;
+namespace bench::paths {
 
-namespace {
+using plexway::Path, plexway::PathField, plexway::PointSource, plexway::Serial;
+using Mesh = plexway::TriangleMesh<float>;
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
+}
+double most(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end());
+}
 
 // A* against the full solve, for random pairs at half the diameter (as far as one vertex sees) or
 // nearer.
-void searches(const std::string& file) {
-  const io::Triangles surface = io::read_triangles(file);
-  const TriangleMesh<float> mesh(surface.positions, surface.triangles);
+Row searches(const Surface& surface) {
+  const Mesh mesh(surface.positions, surface.faces);
   PathField field(mesh, surface.positions);
-  PathSearch<float> search(mesh, surface.positions), nearest_first(mesh);
+  plexway::PathSearch<float> search(mesh, surface.positions), nearest_first(mesh);
   std::mt19937 random(1);
-  std::vector<double> shares, plain_shares, gaps, trace_us, search_ms, solve_ms;
-  double mean_share = 0, windows = 0;
-  int apart = 0;
+  std::vector<double> shares, plain_shares, gaps, windows, trace_us, search_ms, solve_ms;
+  const auto any = [&] { return static_cast<Index>(random() % surface.positions.size()); };
   for (int k = 0; k < 10; ++k) {
-    const Index source = static_cast<Index>(random() % surface.positions.size());
-    solve_ms.push_back(1e3 * seconds([&] { field.solve(Serial{}, PointSource::at(source)); }));
+    const PointSource source = PointSource::at(any());
+    solve_ms.push_back(1e3 * seconds([&] { field.solve(Serial{}, source); }));
+    const auto& found = field.distances();
     double farthest = 0;
-    for (const float d : field.distances().distance)
-      if (d < std::numeric_limits<float>::infinity()) farthest = std::max(farthest, double(d));
-    const auto all = static_cast<double>(field.distances().statistics.expansions);
+    for (const float d : found.distance)
+      if (std::isfinite(d)) farthest = std::max(farthest, static_cast<double>(d));
+    const auto all = static_cast<double>(found.statistics.expansions);
     for (int i = 0; i < 10;) {
-      const Index target = static_cast<Index>(random() % surface.positions.size());
-      const double d = static_cast<double>(field.distances().distance[target]);
+      const Index target = any();
+      const double d = static_cast<double>(found.distance[target]);
       if (!(d > 0) || !(d <= farthest / 2)) continue;
       ++i;
       Path path;
       trace_us.push_back(1e6 * seconds([&] { path = field.trace(target); }));
-      SearchResult found;
-      search_ms.push_back(1e3 * seconds([&] {
-                            found = search.find(Serial{}, PointSource::at(source),
-                                                PointSource::at(target));
-                          }));
-      const auto plain =
-          nearest_first.find(Serial{}, PointSource::at(source), PointSource::at(target));
-      shares.push_back(static_cast<double>(found.statistics.expansions) / all);
+      plexway::SearchResult aimed;
+      search_ms.push_back(
+          1e3 * seconds([&] { aimed = search.find(Serial{}, source, PointSource::at(target)); }));
+      const auto plain = nearest_first.find(Serial{}, source, PointSource::at(target));
+      shares.push_back(static_cast<double>(aimed.statistics.expansions) / all);
       plain_shares.push_back(static_cast<double>(plain.statistics.expansions) / all);
-      mean_share += shares.back() / 100;
-      gaps.push_back(std::abs(found.paths[0].length / path.length - 1));
-      apart += gaps.back() > 1e-4;
-      windows += static_cast<double>(found.paths[0].windows) / 100;
+      gaps.push_back(std::abs(aimed.paths[0].length / path.length - 1));
+      windows.push_back(static_cast<double>(aimed.paths[0].windows));
     }
   }
-  std::sort(shares.begin(), shares.end());
-  std::printf(
-      "%-28s %8zu triangles  A* share of expansions: median %.3f mean %.3f most %.3f (nearest "
-      "first: %.3f)  length off: median %.1e most %.1e, %d of 100 by more than 1e-4  windows %.0f  "
-      "solve %.2f ms, A* with path %.2f ms, path "
-      "%.0f us\n",
-      file.substr(file.rfind('/') + 1).c_str(), surface.triangles.size(), median(shares),
-      mean_share, shares.back(), median(plain_shares), median(gaps),
-      *std::max_element(gaps.begin(), gaps.end()), apart, windows, median(solve_ms),
-      median(search_ms), median(trace_us));
+  return {{"what", "A*, " + surface.name},
+          {"triangles", surface.faces.size()},
+          {"share", median(shares)},
+          {"share_mean", mean(shares)},
+          {"share_most", most(shares)},
+          {"nearest_first", median(plain_shares)},
+          {"off", median(gaps)},
+          {"max", most(gaps)},
+          {"apart", std::count_if(gaps.begin(), gaps.end(), [](double g) { return g > 1e-4; })},
+          {"windows", mean(windows)},
+          {"solve_ms", median(solve_ms)},
+          {"search_ms", median(search_ms)},
+          {"us", median(trace_us)}};
 }
 
 // Paths against exact distances from one vertex: 200 a source.
-void lengths(const std::filesystem::path& folder, const TraceOptions& trace) {
+void lengths(const std::filesystem::path& folder, const plexway::TraceOptions& trace,
+             Table& table) {
   std::set<std::string> names;  // of NAME.vID.txt
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::filesystem::path stem = entry.path().stem();
     if (entry.path().extension() == ".txt" && stem.extension().string().starts_with(".v"))
       names.insert(stem.stem().string());
   }
-  double below = 0, all = 0;
-  std::size_t count = 0;
+  std::vector<double> all;
+  const auto row = [](const std::string& what, const std::vector<double>& errors) {
+    return Row{{"what", what},
+               {"off", mean(errors)},
+               {"max", most(errors)},
+               {"below", std::min(0., *std::min_element(errors.begin(), errors.end()))}};
+  };
   for (const std::string& name : names) {
-    const bench::Surface surface = bench::read_surface(folder / (name + ".obj"));
-    const TriangleMesh<float> mesh(surface.positions, surface.faces);
+    const Surface surface = read_surface(folder / (name + ".obj"));
+    const Mesh mesh(surface.positions, surface.faces);
     PathField field(mesh, surface.positions);
     std::vector<double> errors, times, solves;
-    for (const bench::Truth& truth : bench::read_truths(folder, surface)) {
+    for (const Truth& truth : read_truths(folder, name, surface.positions.size())) {
       const std::vector<double>& exact = truth.distance;
       if (std::none_of(exact.begin(), exact.end(), [](double d) { return d > 0 && d < 1e300; }))
         continue;
-      solves.push_back(
-          1e3 * bench::seconds([&] { field.solve(Serial{}, PointSource::at(truth.source)); }));
+      solves.push_back(1e3 *
+                       seconds([&] { field.solve(Serial{}, PointSource::at(truth.source)); }));
       std::mt19937 random(1);
       for (int k = 0; k < 200;) {
         const Index v = static_cast<Index>(random() % exact.size());
         if (!(exact[v] > 0) || std::isinf(exact[v])) continue;
         ++k;
-        const std::clock_t traced = std::clock();  // others on the machine do not count
-        const Path path = field.trace(v, trace);
-        times.push_back(static_cast<double>(std::clock() - traced) / CLOCKS_PER_SEC * 1e6);
+        Path path;
+        times.push_back(1e6 * processor_seconds([&] { path = field.trace(v, trace); }));
         errors.push_back(path.length / exact[v] - 1);
-        below = std::min(below, errors.back());
       }
     }
     if (errors.empty()) continue;
-    double sum = 0, time = 0;
-    for (const double e : errors) sum += e;
-    for (const double t : times) time += t / static_cast<double>(times.size());
-    all += sum, count += errors.size();
-    std::printf(
-        "%-14s paths over exact: mean %.1e most %.1e  %.0f us a path (most %.0f)  solve "
-        "%.2f ms\n",
-        surface.name.c_str(), sum / static_cast<double>(errors.size()),
-        *std::max_element(errors.begin(), errors.end()), time,
-        *std::max_element(times.begin(), times.end()), bench::median(solves));
+    all.insert(all.end(), errors.begin(), errors.end());
+    table.add(row(name, errors)
+                  .update({{"triangles", surface.faces.size()},
+                           {"us", mean(times)},
+                           {"us_most", most(times)},
+                           {"solve_ms", median(solves)}}));
   }
-  if (count == 0) throw InputError(folder.string() + ": no NAME.obj with NAME.vID.txt in it");
-  std::printf("all: mean %.2e, lowest %.1e\n", all / static_cast<double>(count), below);
+  if (all.empty())
+    throw plexway::InputError(folder.string() + ": no NAME.obj with NAME.vID.txt in it");
+  table.add(row("all", all));
 }
 
 // 1,000 searches that reach about 500 triangles each, against full solves.
-void bounded() {
+Row bounded() {
   constexpr Index n = 708;  // squares a side
-  std::vector<std::array<double, 3>> positions;
-  std::vector<std::array<Index, 3>> faces;
-  for (Index j = 0; j <= n; ++j)
-    for (Index i = 0; i <= n; ++i)
-      positions.push_back(
-          {i / double(n), j / double(n), 0.02 * std::sin(40. * i / n) * std::cos(30. * j / n)});
-  for (Index j = 0; j < n; ++j)
-    for (Index i = 0; i < n; ++i) {
-      const Index a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
-      faces.push_back({a, b, d});
-      faces.push_back({a, d, c});
-    }
-  const TriangleMesh<float> mesh(positions, faces);
-  BoundedSearch<float> search(mesh);
-  Workspace<float> workspace;
-  DistanceField<float> field;
+  const Surface surface = height_field(
+      n, [](double x, double y) { return 0.02 * std::sin(40 * x) * std::cos(30 * y); });
+  const Mesh mesh(surface.positions, surface.faces);
+  plexway::BoundedSearch<float> search(mesh);
+  Solver solver(mesh, one_label());
   std::mt19937 random(1);
-  const double radius = 8.3 / n;
+  const auto any = [&] { return static_cast<Index>(random() % surface.positions.size()); };
   std::vector<double> solves, rounds;
-  double triangles = 0;
+  double reached = 0;
   for (int round = 0; round < 5; ++round) {
-    const PointSource source = PointSource::at(static_cast<Index>(random() % positions.size()));
-    solves.push_back(seconds([&] {
-      plexway::solve(Serial{}, mesh, std::span<const PointSource>(&source, 1), bench::one_label(),
-                     workspace, field);
-    }));
-    triangles = 0;
-    rounds.push_back(seconds([&] {
-      for (int k = 0; k < 1000; ++k)
-        triangles += static_cast<double>(
-            search
-                .find(Serial{}, PointSource::at(static_cast<Index>(random() % positions.size())),
-                      radius)
-                .statistics.reached_simplices);
-    }));
+    const Index source = any();
+    solves.push_back(1e3 * seconds([&] { solver(source); }));
+    reached = 0;
+    rounds.push_back(1e3 * seconds([&] {
+                       for (int k = 0; k < 1000; ++k)
+                         reached += static_cast<double>(
+                             search.find(Serial{}, PointSource::at(any()), 8.3 / n)
+                                 .statistics.reached_simplices);
+                     }));
   }
-  std::printf(
-      "%zu triangles: a full solve %.1f ms; 1000 bounded searches of %.0f triangles %.1f ms = %.2f "
-      "solves\n",
-      faces.size(), median(solves) * 1e3, triangles / 1000, median(rounds) * 1e3,
-      median(rounds) / median(solves));
+  return {{"what", "1000 bounded searches"}, {"triangles", surface.faces.size()},
+          {"reached", reached / 1000},       {"solve_ms", median(solves)},
+          {"search_ms", median(rounds)},     {"solves", median(rounds) / median(solves)}};
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+void run(Arguments& arguments) {
   std::string truth;
   std::vector<std::string> meshes;
   bool only_bounded = false;
-  CLI::App app("Paths, searches for a target and bounded searches");
-  app.add_option("MESH", meshes,
-                 "Surfaces (.obj .off .ply .stl) for A* and paths, before bounded searches");
-  app.add_option("--truth", truth,
-                 "Only this: lengths of paths against the exact distances in a folder of NAME.obj\n"
-                 "and NAME.vID.txt");
-  TraceOptions trace;
-  app.add_option("--margin", trace.margin, "With --truth: as of plexway path");
-  app.add_flag("--bounded", only_bounded,
-               "Only this: bounded searches on a surface of a million triangles");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    if (!truth.empty()) {
-      lengths(truth, trace);
-      return 0;
-    }
-    if (!only_bounded)
-      for (const std::string& mesh : meshes) searches(mesh);
-    bounded();
-    return 0;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bench_paths: %s\n", error.what());
-    return 1;
-  }
+  std::vector<double> margin;
+  plexway::TraceOptions trace;
+  arguments.option("MESH", &meshes, "Surfaces for A* and paths, before bounded searches");
+  arguments.option("--truth", &truth,
+                   "Only this: lengths of paths against the exact distances in a folder of "
+                   "NAME.obj and NAME.vID.txt");
+  arguments.option("--margin", &margin, "With --truth: as of plexway path");
+  arguments.option("--bounded", &only_bounded,
+                   "Only this: bounded searches on a surface of a million triangles");
+  Table& table = arguments.table(
+      "what; triangles; share: share of expansions %.3f; share_mean: mean %.3f;"
+      "share_most: most %.3f; nearest_first: nearest first %.3f; off: length off %.2e; max %.1e;"
+      "below: most below %.1e; apart: by more than 1e-4; windows %.0f; us: us a path %.0f;"
+      "us_most: most %.0f; solve_ms: solve ms %.2f; search_ms: search ms %.2f;"
+      "reached: triangles reached %.0f; solves: in solves %.2f");
+  if (!margin.empty()) trace.margin = margin.front();
+  if (!truth.empty()) return lengths(truth, trace, table);
+  if (!only_bounded)
+    for (const std::string& mesh : meshes) table.add(searches(read_surface(mesh)));
+  table.add(bounded());
 }
+const Command command("paths", "paths, searches for a target, bounded searches", run);
+
+}  // namespace bench::paths

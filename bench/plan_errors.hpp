@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "table.hpp"
+#include "harness.hpp"
 
-/// Errors of fields against truth, a row of bench_random_plans.
+/// Errors of fields against truth, a row of `random_plans`.
 namespace bench {
 
 using Distances = std::vector<double>;

@@ -11,10 +11,10 @@
 
 #include <plexway/apps/path_field.hpp>
 #include <plexway/complex/tet_mesh.hpp>
-#include <plexway/solve.hpp>
 
 #include "data/crack_plans.hpp"
 #include "plan_errors.hpp"
+#include "solver.hpp"
 
 /// Prisms over plans with cracks that may join, or end at corners of holes, one source and all
 /// vertices, or paths.
@@ -127,14 +127,11 @@ void each_cracked(Random& random, std::size_t plans, const std::string& kind, co
 
 inline void solve_cracked(Random& random, std::size_t plans, const std::string& kind,
                           PlanErrors& errors) {
-  each_cracked(
-      random, plans, kind,
-      [&](const auto&, const auto& prism, plexway::Index source, const Distances& truth) {
-        const plexway::TetMesh<double> solid(prism.places, prism.tets);
-        errors.add(
-            plexway::solve(plexway::Serial{}, solid, plexway::PointSource::at(source)).distance,
-            truth);
-      });
+  each_cracked(random, plans, kind,
+               [&](const auto&, const auto& prism, plexway::Index source, const Distances& truth) {
+                 const plexway::TetMesh<double> solid(prism.places, prism.tets);
+                 errors.add(distances(solid, plexway::PointSource::at(source)), truth);
+               });
 }
 
 /// Lengths of paths from four vertices a plan.

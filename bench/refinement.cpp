@@ -2,24 +2,17 @@
 // the same? The bumpy sphere, each size in a process of its own, at the points that it has in
 // common with one of the sizes (--beside), from three of the points that all of them share.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <iostream>
 #include <numeric>
-#include <span>
-#include <string>
-#include <vector>
 
-#include <plexway/solve.hpp>
+#include "../data/shapes.hpp"
+#include "solver.hpp"
 
-#include "compare.hpp"
+namespace bench::refinement {
 
-namespace {
-
-using namespace plexway;
+using plexway::none, plexway::PropagateOptions;
 
 /// A place on the sphere, told apart from all others at any size.
 using Place = std::array<std::int64_t, 3>;
@@ -37,7 +30,7 @@ struct Point {
 };
 
 /// The points of the coarser one of two cuttings that the finer one has, ascending.
-std::vector<Point> points_of(const bench::Surface& surface) {
+std::vector<Point> points_of(const Surface& surface) {
   std::vector<Point> points(surface.positions.size());
   for (Index v = 0; v < points.size(); ++v) points[v] = {place_of(surface.positions[v]), v};
   std::sort(points.begin(), points.end());
@@ -55,7 +48,7 @@ struct Reference {
   std::vector<std::vector<double>> distance;  ///< one a source, by vertex
 };
 
-bench::Surface cut(Index parts) {
+Surface cut(Index parts) {
   samples::Shape shape = samples::bumpy(parts);
   return {"bumpy", std::move(shape.points), std::move(shape.faces)};
 }
@@ -64,56 +57,40 @@ bench::Surface cut(Index parts) {
 std::vector<Place> sources_in(Index parts) {
   const samples::Shape shape = samples::bumpy(parts);
   std::vector<Place> places;
-  for (const Index v : bench::spread_numbers(3, shape.points.size()))
+  for (const Index v : spread_numbers(3, shape.points.size()))
     places.push_back(place_of(shape.points[v]));
   return places;
 }
 
-struct Options {
-  std::vector<Index> parts = {100, 400, 800, 1000, 1280};
-  Index beside = 400;
-  std::string accuracy = "accurate";
-  double limit = 1800;
-  bench::Report report;
-};
-
-PropagateOptions asked(const Options& options) {
-  PropagateOptions o;
-  if (options.accuracy == "fast") o.accuracy = Accuracy::fast();
-  return o;
-}
-
 /// Solves from all sources; visit(number of the source, field).
 template <class Visit>
-nlohmann::ordered_json solve_all(bench::Surface surface, std::span<const Index> sources,
-                                 const Options& options, const Visit& visit) {
+Row solve_all(Surface surface, std::span<const Index> sources, const PropagateOptions& options,
+              const Visit& visit) {
   const double count = static_cast<double>(surface.positions.size());
-  nlohmann::ordered_json row;
-  const std::clock_t begin = std::clock();
-  const TriangleMesh<float> mesh(surface.positions, surface.faces);
-  row["build"] = 1e9 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / count;
+  Row row;
+  std::unique_ptr<plexway::TriangleMesh<float>> mesh;
+  row["build"] =
+      1e9 / count * processor_seconds([&] {
+        mesh = std::make_unique<plexway::TriangleMesh<float>>(surface.positions, surface.faces);
+      });
   surface = {};
-  bench::return_free_memory();
-  Workspace<float> workspace;
-  DistanceField<float> field;
+  return_free_memory();
+  Solver solver(*mesh, options);
   std::vector<double> ns;
   std::size_t lowered = 0, raised = 0, expansions = 0;
   for (std::size_t n = 0; n < sources.size(); ++n) {
-    const PointSource source = PointSource::at(sources[n]);
-    ns.push_back(1e9 / count * bench::processor_seconds([&] {
-                   solve(Serial{}, mesh, std::span(&source, 1), asked(options), workspace, field);
-                 }));
-    lowered += field.statistics.lowered_vertices;
-    raised += field.statistics.raised_vertices;
-    expansions += field.statistics.expansions;
-    visit(n, field);
+    ns.push_back(1e9 / count * processor_seconds([&] { solver(sources[n]); }));
+    lowered += solver.statistics().lowered_vertices;
+    raised += solver.statistics().raised_vertices;
+    expansions += solver.statistics().expansions;
+    visit(n, solver.distance());
   }
   row["ns"] = *std::min_element(ns.begin(), ns.end());
   row["expansions"] =
-      static_cast<double>(expansions) / static_cast<double>(sources.size() * mesh.face_count());
+      static_cast<double>(expansions) / static_cast<double>(sources.size() * mesh->face_count());
   row["lowered"] = static_cast<double>(lowered) / count / static_cast<double>(sources.size());
   row["raised"] = static_cast<double>(raised) / count / static_cast<double>(sources.size());
-  if (const auto peak = bench::status_bytes("VmHWM")) row["peak"] = *peak / (1 << 30);
+  if (const auto peak = status_bytes("VmHWM")) row["peak"] = *peak / (1 << 30);
   return row;
 }
 
@@ -126,19 +103,19 @@ std::vector<Index> vertices_at(std::span<const Point> points, std::span<const Pl
   return vertices;
 }
 
-Reference reference(const Options& options, std::span<const Place> sources) {
-  bench::Surface surface = cut(options.beside);
+Reference reference(Index parts, const PropagateOptions& options, std::span<const Place> sources) {
+  Surface surface = cut(parts);
   Reference r{points_of(surface), {}};
   solve_all(std::move(surface), vertices_at(r.points, sources), options,
-            [&](std::size_t, const DistanceField<float>& field) {
-              r.distance.emplace_back(field.distance.begin(), field.distance.end());
+            [&](std::size_t, const std::vector<float>& found) {
+              r.distance.emplace_back(found.begin(), found.end());
             });
   return r;
 }
 
-nlohmann::ordered_json measure(Index parts, const Options& options, std::span<const Place> sources,
-                               const Reference& beside) {
-  bench::Surface surface = cut(parts);
+Row measure(Index parts, const PropagateOptions& options, std::span<const Place> sources,
+            const Reference& beside) {
+  Surface surface = cut(parts);
   // Vertices here and there, by pairs; the list of all places is large, and goes.
   std::vector<std::array<Index, 2>> common;
   std::vector<Index> from;
@@ -157,78 +134,53 @@ nlohmann::ordered_json measure(Index parts, const Options& options, std::span<co
   }
   double sum = 0, worst = 0;
   std::size_t compared = 0;
-  auto row = solve_all(
-      std::move(surface), from, options, [&](std::size_t n, const DistanceField<float>& field) {
-        for (const auto& [v, w] : common) {
-          const double right = beside.distance[n][w];
-          if (!(right > 0)) continue;
-          const double off = std::abs(static_cast<double>(field.distance[v]) / right - 1);
-          sum += off;
-          worst = std::max(worst, off);
-          ++compared;
-        }
-      });
+  auto row = solve_all(std::move(surface), from, options,
+                       [&](std::size_t n, const std::vector<float>& found) {
+                         for (const auto& [v, w] : common) {
+                           const double right = beside.distance[n][w];
+                           if (!(right > 0)) continue;
+                           const double off = std::abs(static_cast<double>(found[v]) / right - 1);
+                           sum += off;
+                           worst = std::max(worst, off);
+                           ++compared;
+                         }
+                       });
   row["common"] = common.size();
   row["mean"] = sum / static_cast<double>(compared);
   row["max"] = worst;
   return row;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  Options options;
-  CLI::App app("The bumpy sphere cut finer, at common points");
-  app.add_option("--parts", options.parts,
-                 "Parts an edge of the icosahedron: 10 times their square are the vertices")
-      ->delimiter(',')
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  app.add_option("--beside", options.beside, "Compare with the field of so many parts")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  app.add_option("--accuracy", options.accuracy, "fast or accurate")
-      ->check(CLI::IsMember({"fast", "accurate"}))
-      ->capture_default_str();
-  app.add_option("--limit", options.limit, "Seconds after which a row is given up")
-      ->capture_default_str();
-  options.report.add_options(app);
-  CLI11_PARSE(app, argc, argv);
-
-  bench::Table table({{"vertices", "vertices"},
-                      {"build", "build ns/V", "%.0f"},
-                      {"ns", "solve ns/V", "%.0f"},
-                      {"growth", "of --beside", "%.2f"},
-                      {"expansions", "expansions/triangle", "%.2f"},
-                      {"lowered", "lowered", "%.1e"},
-                      {"raised", "raised", "%.1e"},
-                      {"peak", "peak GB", "%.1f"},
-                      {"common", "common points"},
-                      {"mean", "off in the mean", "%.1e"},
-                      {"max", "at worst", "%.1e"},
-                      {"note", "note"}});
-  return options.report.write(table, [&] {
-    Index shared = options.beside;
-    for (const Index parts : options.parts) shared = std::gcd(shared, parts);
-    const std::vector<Place> sources = sources_in(shared);
-    std::vector<Index> sizes = options.parts;
-    std::sort(sizes.begin(), sizes.end());
-    const Reference beside = reference(options, sources);
-    bench::return_free_memory();
-    std::vector<nlohmann::ordered_json> rows;
-    double unit = 0;
-    for (const Index parts : sizes) {
-      const std::size_t vertices = 10 * static_cast<std::size_t>(parts) * parts + 2;
-      std::cerr << vertices << std::endl;
-      rows.push_back({{"vertices", vertices}});
-      rows.back().update(
-          bench::isolated(options.limit, [&] { return measure(parts, options, sources, beside); }));
-      if (parts == options.beside && rows.back().contains("ns"))
-        unit = rows.back()["ns"].get<double>();
-    }
-    for (auto& row : rows) {
-      if (unit > 0 && row.contains("ns")) row["growth"] = row["ns"].get<double>() / unit;
-      table.add(std::move(row));
-    }
-  });
+void run(Arguments& arguments) {
+  std::vector<Index> parts = {100, 400, 800, 1000, 1280};
+  Index beside_parts = 400;
+  std::string accuracy = "accurate";
+  arguments.positive("--parts", &parts,
+                     "Parts an edge of the icosahedron: 10 times their square are the vertices");
+  arguments.positive("--beside", &beside_parts, "Compare with the field of so many parts");
+  arguments.option("--accuracy", &accuracy, "What is asked for", {"fast", "accurate"});
+  arguments.add_limit(1800);
+  Table& table = arguments.table(
+      "vertices; build: build ns/V %.0f; ns: solve ns/V %.0f; growth: of --beside %.2f;"
+      "expansions: expansions/triangle %.2f; lowered %.1e; raised %.1e; peak: peak GB %.1f;"
+      "common: common points; mean: off in the mean %.1e; max: at worst %.1e; note");
+  const PropagateOptions options = accuracy == "fast" ? one_label() : PropagateOptions();
+  const std::vector<Place> sources = sources_in(std::accumulate(
+      parts.begin(), parts.end(), beside_parts, [](Index a, Index b) { return std::gcd(a, b); }));
+  std::sort(parts.begin(), parts.end());
+  const Reference beside = reference(beside_parts, options, sources);
+  return_free_memory();
+  double unit = 0;
+  for (const Index n : parts) {
+    const Row& row =
+        table.measure({{"vertices", 10 * static_cast<std::size_t>(n) * n + 2}}, arguments.limit,
+                      [&] { return measure(n, options, sources, beside); });
+    if (const Value* ns = row.find("ns"); ns != nullptr && n == beside_parts) unit = ns->number();
+  }
+  for (Row& row : table.rows())
+    if (const Value* ns = row.find("ns"); ns != nullptr && unit > 0)
+      row["growth"] = ns->number() / unit;
 }
+const Command command("refinement", "one smooth surface cut finer, at common points", run);
+
+}  // namespace bench::refinement

@@ -79,39 +79,39 @@ cxx=$(sed -n 's/^CMAKE_CXX_COMPILER:[^=]*=//p' "$bin/../CMakeCache.txt")
 } > "$out/machine.txt"
 
 peers=$bin/bench_cgal
-[ -x "$peers" ] || peers=$bin/bench_peers
+[ -x "$peers" ] || peers=$bin/bench
 # The arguments in $effort and its like are words of their own.
 # shellcheck disable=SC2086
 {
-  run peers "$peers" "$@" $effort $exact
-  run policy "$bin/bench_policy" "$@" $effort
-  run triangulation "$bin/bench_triangulation" "$@" $triangulation $effort
-  run windows "$bin/bench_windows" "$@" $effort
-  run window_sources "$bin/bench_window_sources" "$@" --sources 40
-  run window_refinement "$bin/bench_window_refinement"
-  run build "$bin/bench_build" "$@" $build
-  [ -z "$data" ] || run parity "$bin/bench_parity" "$@"
-  run corners "$bin/bench_corners" $corners
-  run dimensions "$bin/bench_dimensions"
-  run random_plans "$bin/bench_random_plans"
-  run metrics "$bin/bench_metrics" $metrics
-  run curves "$bin/bench_curves" $curves
+  run peers "$peers" peers "$@" $effort $exact
+  run policy "$bin/bench" policy "$@" $effort
+  run triangulation "$bin/bench" triangulation "$@" $triangulation $effort
+  run windows "$bin/bench" windows "$@" $effort
+  run window_sources "$bin/bench" window_sources "$@" --sources 40
+  run window_refinement "$bin/bench" window_refinement
+  run build "$bin/bench" build "$@" $build
+  [ -z "$data" ] || run parity "$bin/bench" parity "$@"
+  run corners "$bin/bench" corners $corners
+  run dimensions "$bin/bench" dimensions
+  run random_plans "$bin/bench" random_plans
+  run metrics "$bin/bench" metrics $metrics
+  run curves "$bin/bench" curves $curves
   # Two good scans, cut into four until they have a million vertices; otherwise the sphere alone.
   set --
   for scan in bunny armadillo; do
     [ ! -e "$data/$scan.obj" ] || set -- "$@" "$data/$scan.obj"
   done
-  run scale "$bin/bench_scale" "$@" $scale
-  run scale_shuffled "$bin/bench_scale" --shuffle $scale
-  run refinement "$bin/bench_refinement" --parts 100,400,800
-  run strips "$bin/bench_strips"
+  run scale "$bin/bench" scale "$@" $scale
+  run scale_shuffled "$bin/bench" scale --shuffle $scale
+  run refinement "$bin/bench" refinement --parts 100,400,800
+  run strips "$bin/bench" strips
   solids=
   [ -z "$data" ] || [ ! -d "$data/../solids" ] || solids=$data/../solids
-  run solids "$bin/bench_solids" $solids $solid_sizes
-  run wireframes "$bin/bench_wireframes" $wires
-  run executors "$bin/bench_executors" $teams
+  run solids "$bin/bench" solids $solids $solid_sizes
+  run wireframes "$bin/bench" wireframes $wires
+  run executors "$bin/bench" executors $teams
   # Only where a device is found.
   ! "$bin/plexway" info --devices 2>/dev/null | grep -q '^gl [0-9]' ||
-    run gl "$bin/bench_gl" $gl
+    run gl "$bin/bench" gl $gl
 }
 echo "$out: $(cd "$out" && ls | tr '\n' ' ')"

@@ -1,22 +1,15 @@
 // Time and memory a vertex as the surface grows: a bumpy sphere at several resolutions, and any
 // mesh cut into four again and again.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
-#include <iostream>
 #include <map>
-#include <numeric>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include "compare.hpp"
+#include "peers.hpp"
+#include "scenes.hpp"
+#include "solver.hpp"
 
-namespace {
-
-using bench::Index;
-using bench::Surface;
+namespace bench::scale {
 
 /// Every triangle in four, by the middles of its edges. The surface stays the same.
 Surface subdivide(const Surface& surface) {
@@ -52,19 +45,10 @@ Surface subdivide(const Surface& surface) {
 /// Vertices and faces in an order that says nothing about where they are.
 void shuffle(Surface& surface) {
   samples::Noise noise(1);
-  const auto permutation = [&](std::size_t n) {
-    std::vector<Index> order(n);
-    std::iota(order.begin(), order.end(), Index{0});
-    for (std::size_t i = n; i > 1; --i) {
-      const double place = (noise() + 1) / 2 * static_cast<double>(i);
-      std::swap(order[i - 1], order[std::min(i - 1, static_cast<std::size_t>(place))]);
-    }
-    return order;
-  };
-  const auto place = permutation(surface.positions.size());
+  const auto place = shuffled(surface.positions.size(), noise);
   const auto old_positions = surface.positions;
   for (std::size_t v = 0; v < place.size(); ++v) surface.positions[place[v]] = old_positions[v];
-  const auto face_place = permutation(surface.faces.size());
+  const auto face_place = shuffled(surface.faces.size(), noise);
   const auto old_faces = surface.faces;
   for (std::size_t f = 0; f < face_place.size(); ++f) {
     auto face = old_faces[f];
@@ -75,34 +59,36 @@ void shuffle(Surface& surface) {
 }
 
 template <class Real>
-nlohmann::ordered_json measure(const Surface& surface, const bench::Effort& effort) {
+Row measure(const Surface& surface, const Effort& effort) {
+  using Mesh = plexway::TriangleMesh<Real>;
   const double vertices = static_cast<double>(surface.positions.size());
-  const auto sources = bench::rotating_sources(surface, effort.sources);
-  nlohmann::ordered_json row;
+  const auto sources = rotating_sources(surface, effort.sources);
+  Row row;
 
   // Memory first, while nothing but the surface is there.
-  bench::return_free_memory();
-  const auto before = bench::status_bytes("VmRSS");
-  std::unique_ptr<bench::PlexwayPeer<Real>> peer;
-  row["build_ns_per_vertex"] =
-      1e9 / vertices * bench::seconds([&] {
-        peer = std::make_unique<bench::PlexwayPeer<Real>>(surface, bench::one_label());
-      });
-  const auto build_peak = bench::status_bytes("VmHWM");
-  for (const Index source : sources) peer->solve(source);
-  row["bytes_per_vertex"] = static_cast<double>(peer->bytes()) / vertices;
-  bench::return_free_memory();
-  if (const auto now = bench::status_bytes("VmRSS"); before && now)
+  return_free_memory();
+  const auto before = status_bytes("VmRSS");
+  std::unique_ptr<Mesh> mesh;
+  std::unique_ptr<Solver<Mesh>> solver;
+  row["build_ns_per_vertex"] = 1e9 / vertices * seconds([&] {
+                                 mesh = std::make_unique<Mesh>(surface.positions, surface.faces);
+                                 solver = std::make_unique<Solver<Mesh>>(*mesh, one_label());
+                               });
+  const auto build_peak = status_bytes("VmHWM");
+  for (const Index source : sources) (*solver)(source);
+  row["bytes_per_vertex"] = static_cast<double>(mesh->bytes() + solver->bytes()) / vertices;
+  return_free_memory();
+  if (const auto now = status_bytes("VmRSS"); before && now)
     row["resident_per_vertex"] = (*now - *before) / vertices;
   if (before && build_peak) row["build_peak_per_vertex"] = (*build_peak - *before) / vertices;
 
-  const auto reference = bench::reference_peer(surface, sizeof(Real) == sizeof(float));
-  const auto times = bench::take_turns(
+  const auto reference = reference_peer(surface, sizeof(Real) == sizeof(float));
+  const Times times = take_turns(
       sources, effort,
       [&](Index source) {
         if (reference) reference->solve(source);
       },
-      [&](Index source) { peer->solve(source); });
+      [&](Index source) { (*solver)(source); });
   row["ns_per_vertex"] = 1e9 * times.second / vertices;
   if (reference) {
     row["dijkstra_ns_per_vertex"] = 1e9 * times.first / vertices;
@@ -111,66 +97,41 @@ nlohmann::ordered_json measure(const Surface& surface, const bench::Effort& effo
   return row;
 }
 
-bench::Table scale_table() {
-  return bench::Table({{"mesh", "mesh"},
-                       {"vertices", "vertices"},
-                       {"build_ns_per_vertex", "build ns/V", "%.0f"},
-                       {"ns_per_vertex", "solve ns/V", "%.1f"},
-                       {"growth", "to the smallest", "%.2f"},
-                       {"dijkstra_ns_per_vertex", "Dijkstra ns/V", "%.1f"},
-                       {"ratio", "ratio", "%.2f"},
-                       {"bytes_per_vertex", "bytes/V", "%.0f"},
-                       {"resident_per_vertex", "resident bytes/V", "%.0f"},
-                       {"build_peak_per_vertex", "peak of the build bytes/V", "%.0f"},
-                       {"note", "note"}});
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
+void run(Arguments& arguments) {
   std::vector<std::string> meshes;
   std::vector<std::size_t> sizes = {50000, 400000, 1000000};
-  bench::Effort effort{8, 2, 20};
-  double limit = 600;
-  bench::Report report;
-  bool double_precision = false;
-  bool shuffled = false;
-  CLI::App app("Time and memory a vertex as a surface grows: one table");
-  app.add_option("MESH", meshes, "Surfaces to subdivide up to the largest size");
-  app.add_option("--sizes", sizes, "Vertices of the bumpy sphere, about")
-      ->delimiter(',')
-      ->capture_default_str();
-  bench::add_effort_options(app, effort);
-  app.add_option("--limit", limit, "Seconds after which a row is given up")->capture_default_str();
-  app.add_flag("--shuffle", shuffled, "Vertices and faces in random order");
-  app.add_flag("--double", double_precision, "Double instead of float");
-  report.add_options(app);
-  CLI11_PARSE(app, argc, argv);
-
-  bench::Table table = scale_table();
+  Effort effort{8, 2, 20};
+  bool twice = false, in_any_order = false;
+  arguments.option("MESH", &meshes, "Surfaces to subdivide up to the largest size");
+  arguments.option("--sizes", &sizes, "Vertices of the bumpy sphere, about");
+  effort.add_options(arguments);
+  arguments.add_limit();
+  arguments.option("--shuffle", &in_any_order, "Vertices and faces in random order");
+  arguments.option("--double", &twice, "Double instead of float");
+  Table& table = arguments.table(
+      "mesh; vertices; build_ns_per_vertex: build ns/V %.0f; ns_per_vertex: solve ns/V %.1f;"
+      "growth: to the smallest %.2f; dijkstra_ns_per_vertex: Dijkstra ns/V %.1f; ratio %.2f;"
+      "bytes_per_vertex: bytes/V %.0f; resident_per_vertex: resident bytes/V %.0f;"
+      "build_peak_per_vertex: peak of the build bytes/V %.0f; note");
   std::map<std::string, double> smallest;  // ns a vertex of the smallest surface of a family
-  const auto measure_one = [&](const std::string& family, Surface surface) {
-    if (shuffled) shuffle(surface);
-    std::cerr << surface.name << ": " << surface.positions.size() << " vertices" << std::endl;
-    nlohmann::ordered_json row = {{"mesh", surface.name}, {"vertices", surface.positions.size()}};
-    row.update(bench::isolated(limit, [&] {
-      return double_precision ? measure<double>(surface, effort) : measure<float>(surface, effort);
-    }));
-    if (row.contains("ns_per_vertex")) {
-      const double ns = row["ns_per_vertex"].get<double>();
-      row["growth"] = ns / smallest.try_emplace(family, ns).first->second;
-    }
-    table.add(std::move(row));
+  const auto on = [&](const std::string& family, Surface surface) {
+    if (in_any_order) shuffle(surface);
+    Row& row = table.measure(
+        {{"mesh", surface.name}, {"vertices", surface.positions.size()}}, arguments.limit,
+        [&] { return twice ? measure<double>(surface, effort) : measure<float>(surface, effort); });
+    if (const Value* ns = row.find("ns_per_vertex"))
+      row["growth"] = ns->number() / smallest.try_emplace(family, ns->number()).first->second;
   };
-  return report.write(table, [&] {
-    std::sort(sizes.begin(), sizes.end());
-    for (const std::size_t size : sizes) measure_one("bumpy", bench::bumpy_surface(size));
-    for (const std::string& mesh : meshes) {
-      Surface surface = bench::read_surface(mesh);
-      while (!sizes.empty() && surface.positions.size() <= sizes.back()) {
-        measure_one(mesh, surface);
-        surface = subdivide(surface);
-      }
+  std::sort(sizes.begin(), sizes.end());
+  for (const std::size_t size : sizes) on("bumpy", bumpy_surface(size));
+  for (const std::string& mesh : meshes) {
+    Surface surface = read_surface(mesh);
+    while (!sizes.empty() && surface.positions.size() <= sizes.back()) {
+      on(mesh, surface);
+      surface = subdivide(surface);
     }
-  });
+  }
 }
+const Command command("scale", "time and memory a vertex as a surface grows", run);
+
+}  // namespace bench::scale

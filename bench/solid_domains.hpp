@@ -11,7 +11,7 @@
 
 #include "../data/convex_obstacles.hpp"
 #include "../data/obstacles.hpp"
-#include "harness.hpp"
+#include "errors.hpp"
 
 namespace bench {
 

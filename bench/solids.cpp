@@ -1,18 +1,9 @@
 // Geodesic distance in tetrahedral solids: time beside Dijkstra's on the same edges, errors against
 // exact answers, and both as generated solids grow.
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
-#include <iostream>
-#include <memory>
-#include <numeric>
-#include <string>
-#include <vector>
 
-#include <plexway/solve.hpp>
 #ifdef PLEXWAY_HAS_GL
 #include <plexway/executors/gl.hpp>
 #endif
@@ -20,20 +11,16 @@
 #include <plexway/boost_graph/dijkstra.hpp>
 #endif
 
-#include "../data/shapes.hpp"
-#include "harness.hpp"
-#include "isolate.hpp"
-#include "table.hpp"
+#include "scenes.hpp"
+#include "solver.hpp"
 
-namespace {
-
-using bench::Index;
+namespace bench::solids {
 
 struct Solid {
   std::string name;
   std::vector<std::array<double, 3>> positions;
   std::vector<std::array<Index, 4>> tets;
-  std::vector<bench::Truth> truths;
+  std::vector<Truth> truths;
 };
 
 /// TetGen's plain text, 0-based, as the truth folder has it, with its exact answers.
@@ -43,6 +30,7 @@ Solid read_solid(const std::filesystem::path& folder, const std::string& name) {
   std::size_t skip = 0;
   std::ifstream nodes(folder / (name + ".node"));
   nodes >> count >> skip >> skip >> skip;
+  const std::size_t count_of_nodes = count;
   solid.positions.resize(count);
   for (auto& p : solid.positions) nodes >> skip >> p[0] >> p[1] >> p[2];
   std::ifstream tets(folder / (name + ".ele"));
@@ -50,7 +38,7 @@ Solid read_solid(const std::filesystem::path& folder, const std::string& name) {
   solid.tets.resize(count);
   for (auto& t : solid.tets) tets >> skip >> t[0] >> t[1] >> t[2] >> t[3];
   if (!nodes || !tets) throw std::runtime_error((folder / name).string() + ": cannot be read");
-  solid.truths = bench::read_truths(folder, {name, solid.positions, {}});
+  solid.truths = read_truths(folder, name, count_of_nodes);
   return solid;
 }
 
@@ -94,21 +82,17 @@ Solid generated(Index n, bool notched, bool shuffled) {
       }
   if (shuffled) {
     s.name += ", shuffled";
-    std::vector<Index> place(s.positions.size());
-    std::iota(place.begin(), place.end(), Index{0});
-    const auto any = [&](std::size_t limit) {
-      const double at = (noise() + 1) / 2 * static_cast<double>(limit);
-      return std::min(limit - 1, static_cast<std::size_t>(at));
-    };
-    for (std::size_t i = place.size(); i > 1; --i) std::swap(place[i - 1], place[any(i)]);
+    const auto place = bench::shuffled(s.positions.size(), noise);
     const auto old = s.positions;
     for (std::size_t v = 0; v < place.size(); ++v) s.positions[place[v]] = old[v];
     for (auto& t : s.tets)
       for (Index& v : t) v = place[v];
-    for (std::size_t i = s.tets.size(); i > 1; --i) std::swap(s.tets[i - 1], s.tets[any(i)]);
+    const auto tets = s.tets;
+    const auto order = bench::shuffled(tets.size(), noise);
+    for (std::size_t t = 0; t < tets.size(); ++t) s.tets[t] = tets[order[t]];
   }
   // From the vertex nearest to the far end of one arm.
-  bench::Truth truth;
+  Truth truth;
   double least = 10;
   for (Index v = 0; v < s.positions.size(); ++v) {
     const auto& p = s.positions[v];
@@ -128,75 +112,53 @@ Solid generated(Index n, bool notched, bool shuffled) {
   return s;
 }
 
-#ifdef PLEXWAY_HAS_BOOST_GRAPH
-/// Three faces of a tetrahedron have all its edges.
-std::vector<std::array<Index, 3>> triangles(const Solid& solid) {
-  std::vector<std::array<Index, 3>> faces;
-  for (const auto& [a, b, c, d] : solid.tets)
-    faces.insert(faces.end(), {{a, b, c}, {a, b, d}, {a, c, d}});
-  return faces;
-}
-#endif
-
 #ifdef PLEXWAY_HAS_GL
 /// Time on the GL device, and how far its distances are from the serial executor's (mean, worst).
 void measure_gl(const plexway::TetMesh<float>& mesh, const std::vector<Index>& sources,
-                const bench::Effort& effort, nlohmann::ordered_json& row) {
-  plexway::GLWorkspace there;
-  plexway::Workspace<float> here;
-  plexway::DistanceField<float> field, serial;
-  double sum = 0, worst = 0, time = 0;
-  std::size_t count = 0;
+                const Effort& effort, Row& row) {
+  Solver<plexway::TetMesh<float>, plexway::GL> there(mesh);
+  Solver here(mesh);
+  Apart apart;
+  double time = 0;
   for (const Index source : sources) {
-    const auto at = plexway::PointSource::at(source);
-    plexway::solve(plexway::Serial{}, mesh, std::span(&at, 1), {}, here, serial);
+    here(source);
     double least = 1e9;
     for (std::size_t n = 0; n <= effort.repeats; ++n)
-      least = std::min(least, bench::seconds([&] {
-                         plexway::solve(plexway::GL{}, mesh, std::span(&at, 1), {}, there, field);
-                       }));
+      least = std::min(least, seconds([&] { there(source); }));
     time += least;
-    for (std::size_t v = 0; v < serial.distance.size(); ++v) {
-      if (!(serial.distance[v] > 0) || std::isinf(serial.distance[v])) continue;
-      const double apart = std::abs(double(field.distance[v]) / double(serial.distance[v]) - 1);
-      sum += apart, worst = std::max(worst, apart), ++count;
-    }
+    apart.add(here.distance(), there.distance());
   }
   row["gl_ns_per_vertex"] = 1e9 * time / static_cast<double>(sources.size() * mesh.vertex_count());
-  row["gl_apart"] = count > 0 ? sum / static_cast<double>(count) : 0;
-  row["gl_apart_max"] = worst;
+  row["gl_apart"] = apart.mean();
+  row["gl_apart_max"] = apart.most;
 }
 #endif
 
 template <class Real>
-nlohmann::ordered_json measure(const Solid& solid, const bench::Effort& effort,
-                               plexway::Visibility visibility, [[maybe_unused]] bool gl) {
+Row measure(const Solid& solid, const Effort& effort, const plexway::PropagateOptions& options,
+            [[maybe_unused]] bool gl) {
   const double vertices = static_cast<double>(solid.positions.size());
   const double tets = static_cast<double>(solid.tets.size());
-  nlohmann::ordered_json row;
+  Row row;
   std::unique_ptr<plexway::TetMesh<Real>> mesh;
   row["build_ns_per_tet"] =
-      1e9 / tets * bench::seconds([&] {
+      1e9 / tets * seconds([&] {
         mesh = std::make_unique<plexway::TetMesh<Real>>(solid.positions, solid.tets);
       });
-  plexway::PropagateOptions options;
-  options.visibility = visibility;
-  plexway::Workspace<Real> workspace;
-  plexway::DistanceField<Real> field;
-  const auto solve = [&](Index source) {
-    const auto at = plexway::PointSource::at(source);
-    plexway::solve(plexway::Serial{}, *mesh, std::span(&at, 1), options, workspace, field);
-  };
+  Solver solver(*mesh, options);
   std::vector<Index> sources;
   for (std::size_t i = 0; i < effort.sources; ++i)
     sources.push_back(static_cast<Index>((i * 2654435761u) % solid.positions.size()));
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
-  plexway::boost_graph::EdgeDijkstra<Real> dijkstra(solid.positions, triangles(solid));
+  std::vector<std::array<Index, 3>> faces;  // three of a tetrahedron have all its edges
+  for (const auto& [a, b, c, d] : solid.tets)
+    faces.insert(faces.end(), {{a, b, c}, {a, b, d}, {a, c, d}});
+  plexway::boost_graph::EdgeDijkstra<Real> dijkstra(solid.positions, faces);
   const auto reference = [&](Index source) { dijkstra.run(source); };
 #else
   const auto reference = [](Index) {};
 #endif
-  const auto times = bench::take_turns(sources, effort, reference, solve);
+  const Times times = take_turns(sources, effort, reference, [&](Index source) { solver(source); });
   row["ns_per_vertex"] = 1e9 * times.second / vertices;
   row["ns_per_tet"] = 1e9 * times.second / tets;
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
@@ -207,102 +169,65 @@ nlohmann::ordered_json measure(const Solid& solid, const bench::Effort& effort,
   if constexpr (sizeof(Real) == sizeof(float))
     if (gl) measure_gl(*mesh, sources, effort, row);
 #endif
-  bench::Errors errors;
+  Errors errors;
   double updates = 0;
-  for (const bench::Truth& truth : solid.truths) {
-    solve(truth.source);
-    updates += static_cast<double>(field.statistics.updates) / tets;
-    errors.add(truth, std::vector<double>(field.distance.begin(), field.distance.end()));
+  for (const Truth& truth : solid.truths) {
+    solver(truth.source);
+    updates += static_cast<double>(solver.statistics().updates) / tets;
+    errors.add(truth, solver.distance());
   }
+  add_errors(row, errors);
   if (const auto summary = errors.summary()) {
-    row["mean"] = summary->mean;
-    row["p99"] = summary->p99;
-    row["max"] = summary->max;
-    row["most_below"] = summary->most_below;
     row["updates_per_tet"] = updates / static_cast<double>(solid.truths.size());
     if (summary->wrong > 0) row["note"] = std::to_string(summary->wrong) + " wrong";
   }
   row["mesh_bytes_per_tet"] = static_cast<double>(mesh->bytes()) / tets;
-  row["bytes_per_tet"] = static_cast<double>(mesh->bytes() + workspace.bytes()) / tets;
+  row["bytes_per_tet"] = static_cast<double>(mesh->bytes() + solver.workspace().bytes()) / tets;
   return row;
 }
 
-bench::Table solids_table() {
-  return bench::Table({{"mesh", "mesh"},
-                       {"tets", "tets"},
-                       {"build_ns_per_tet", "build ns/T", "%.0f"},
-                       {"ns_per_vertex", "solve ns/V", "%.0f"},
-                       {"ns_per_tet", "ns/T", "%.0f"},
-                       {"dijkstra_ns_per_vertex", "Dijkstra ns/V", "%.0f"},
-                       {"ratio", "ratio", "%.2f"},
-                       {"gl_ns_per_vertex", "GL ns/V", "%.0f"},
-                       {"gl_apart", "GL apart mean", "%.1e"},
-                       {"gl_apart_max", "max", "%.1e"},
-                       {"mean", "error mean", "%.1e"},
-                       {"p99", "p99", "%.1e"},
-                       {"max", "max", "%.1e"},
-                       {"most_below", "most below", "%.1e"},
-                       {"updates_per_tet", "updates/T", "%.2f"},
-                       {"mesh_bytes_per_tet", "mesh bytes/T", "%.0f"},
-                       {"bytes_per_tet", "with workspace", "%.0f"},
-                       {"note", "note"}});
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  std::filesystem::path truth;
+void run(Arguments& arguments) {
+  std::string truth, policy = "saddles";
   std::vector<Index> sizes = {12, 26, 44, 70};
-  bench::Effort effort{6, 2, 20};
-  double limit = 600;
-  bench::Report report;
-  bool single_precision = false;
-  bool gl = false;
-  std::string policy = "saddles";
-  CLI::App app("Distance in solids: time, errors, growth: one table");
-  app.add_option("TRUTH", truth, "Folder of .node, .ele and exact answers");
-  app.add_option("--sizes", sizes, "Cubes along a side of the generated solids")
-      ->delimiter(',')
-      ->capture_default_str();
-  app.add_option("--sources", effort.sources, "Sources to rotate")->capture_default_str();
-  app.add_option("--repeats", effort.repeats, "Solves from each source")->capture_default_str();
-  app.add_option("--budget", effort.budget, "Seconds after which a row ends early")
-      ->capture_default_str();
-  app.add_flag("--processor", effort.processor, "The processor's time instead of the clock's");
-  app.add_option("--limit", limit, "Seconds after which a row is given up")->capture_default_str();
-  app.add_option("--policy", policy, "saddles, centroid or upper_bound")
-      ->check(CLI::IsMember({"saddles", "centroid", "upper_bound"}))
-      ->capture_default_str();
-  app.add_flag("--float", single_precision, "Float instead of double");
+  Effort effort{6, 2, 20};
+  bool single = false, gl = false;
+  arguments.option("TRUTH", &truth, "Folder of .node, .ele and exact answers");
+  arguments.option("--sizes", &sizes, "Cubes along a side of the generated solids");
+  effort.add_options(arguments);
+  arguments.add_limit();
+  arguments.option("--policy", &policy, "Of labels", {"saddles", "centroid", "upper_bound"});
+  arguments.option("--float", &single, "Float instead of double");
 #ifdef PLEXWAY_HAS_GL
-  app.add_flag("--gl", gl, "With --float: also on the GL device, beside the serial executor");
+  arguments.option("--gl", &gl, "With --float: also on the GL device, beside the serial executor");
 #endif
-  report.add_options(app);
-  CLI11_PARSE(app, argc, argv);
-  const auto visibility = policy == "saddles"    ? plexway::Visibility::saddles
-                          : policy == "centroid" ? plexway::Visibility::centroid
-                                                 : plexway::Visibility::upper_bound;
-  bench::Table table = solids_table();
-  const auto measure_one = [&](const auto& make) {
-    nlohmann::ordered_json row = bench::isolated(limit, [&] {
+  Table& table = arguments.table(
+      "mesh; tets; build_ns_per_tet: build ns/T %.0f; ns_per_vertex: solve ns/V %.0f;"
+      "ns_per_tet: ns/T %.0f; dijkstra_ns_per_vertex: Dijkstra ns/V %.0f; ratio %.2f;"
+      "gl_ns_per_vertex: GL ns/V %.0f; gl_apart: GL apart mean %.1e; gl_apart_max: max %.1e;"
+      "mean: error mean %.1e; p99 %.1e; max %.1e; below: most below %.1e;"
+      "updates_per_tet: updates/T %.2f; mesh_bytes_per_tet: mesh bytes/T %.0f;"
+      "bytes_per_tet: with workspace %.0f; note");
+  plexway::PropagateOptions options;
+  if (policy == "centroid") options.visibility = plexway::Visibility::centroid;
+  if (policy == "upper_bound") options.visibility = plexway::Visibility::upper_bound;
+  const auto on = [&](const auto& make) {
+    table.measure({}, arguments.limit, [&] {
       const Solid solid = make();
-      nlohmann::ordered_json cells = {{"mesh", solid.name}, {"tets", solid.tets.size()}};
-      std::cerr << solid.name << std::endl;
-      cells.update(single_precision ? measure<float>(solid, effort, visibility, gl)
-                                    : measure<double>(solid, effort, visibility, gl));
-      return cells;
+      return Row{{"mesh", solid.name}, {"tets", solid.tets.size()}}.update(
+          single ? measure<float>(solid, effort, options, gl)
+                 : measure<double>(solid, effort, options, gl));
     });
-    table.add(std::move(row));
   };
-  return report.write(table, [&] {
-    std::vector<std::string> names;
-    if (!truth.empty())
-      for (const auto& entry : std::filesystem::directory_iterator(truth))
-        if (entry.path().extension() == ".node") names.push_back(entry.path().stem().string());
-    std::sort(names.begin(), names.end());
-    for (const std::string& name : names) measure_one([&] { return read_solid(truth, name); });
-    for (const bool notched : {false, true})
-      for (const Index n : sizes) measure_one([&] { return generated(n, notched, false); });
-    if (!sizes.empty()) measure_one([&] { return generated(sizes.back(), true, true); });
-  });
+  std::vector<std::string> names;
+  if (!truth.empty())
+    for (const auto& entry : std::filesystem::directory_iterator(truth))
+      if (entry.path().extension() == ".node") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names) on([&] { return read_solid(truth, name); });
+  for (const bool notched : {false, true})
+    for (const Index n : sizes) on([&] { return generated(n, notched, false); });
+  if (!sizes.empty()) on([&] { return generated(sizes.back(), true, true); });
 }
+const Command command("solids", "solids beside Dijkstra on their edges: time, errors, growth", run);
+
+}  // namespace bench::solids

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Makes the training and the validation set with their exact answers, tunes on the one and judges by
-# the other: everything docs/TUNING.md says. Needs bench_cgal_truth, so CGAL, for the answers.
+# the other: everything docs/TUNING.md says. Needs bench_cgal, so CGAL, for the answers.
 #
 #   bench/tune.sh BUILD OUT [SCANS]
 #
@@ -23,11 +23,11 @@ mkdir -p "$out"
 for set in training validation; do
   [ ! -d "$out/$set" ] || continue
   rm -rf "$out/$set.part"
-  "$bin/bench_tuning_set" $set "$out/$set.part" > "$out/$set.txt"
+  "$bin/bench" tuning_set $set "$out/$set.part" > "$out/$set.txt"
   if [ $set = training ] && [ -e "$here/../data/fetched/bunny.obj" ]; then
     cp "$here/../data/fetched/bunny.obj" "$out/$set.part/"
   fi
-  "$bin/bench_cgal_truth" "$out/$set.part"/*.obj
+  "$bin/bench_cgal" truth "$out/$set.part"/*.obj
   mv "$out/$set.part" "$out/$set"
 done
 
@@ -53,17 +53,17 @@ found=
 [ ! -e "$out/table.json" ] || found="--table $out/table.json"
 # shellcheck disable=SC2086
 {
-  "$bin/bench_validation" "$out"/validation/*.obj $found $effort --markdown "$out/validation.md" \
+  "$bin/bench" validation "$out"/validation/*.obj $found $effort --markdown "$out/validation.md" \
     --json > "$out/validation.json"
   [ ! -e "$out/saddles.json" ] ||
-    "$bin/bench_validation" "$out"/validation/*.obj --saddles "$out/saddles.json" $effort \
+    "$bin/bench" validation "$out"/validation/*.obj --saddles "$out/saddles.json" $effort \
       --markdown "$out/validation_saddles.md" --json > "$out/validation_saddles.json"
   if [ -n "$scans" ]; then
     set --
     for scan in "$scans"/*.obj; do
       [ "$(basename "$scan")" = bunny.obj ] || set -- "$@" "$scan"
     done
-    "$bin/bench_validation" "$@" $found $effort --markdown "$out/scans.md" --json > "$out/scans.json"
+    "$bin/bench" validation "$@" $found $effort --markdown "$out/scans.md" --json > "$out/scans.json"
   fi
 }
 grep '^| all' "$out"/*.md

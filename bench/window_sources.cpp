@@ -1,29 +1,12 @@
 // Merged windows from many random sources beside exact ones: the worst vertex, how much the two
 // ways of a pair differ, and what lies below the straight line in space. Labels beside them.
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <iostream>
 #include <random>
-#include <string>
-#include <vector>
 
-#include <plexway/solve.hpp>
+#include "solver.hpp"
 
-#include "compare.hpp"
-
-namespace {
-
-using namespace plexway;
-
-struct Options {
-  std::vector<std::string> meshes;
-  std::size_t sources = 200;
-  unsigned seed = 1;
-  bench::Report report;
-};
+namespace bench::window_sources {
 
 /// Fields of one accuracy, judged one after the other.
 struct Judged {
@@ -31,8 +14,7 @@ struct Judged {
   std::size_t fields = 0, beyond = 0, vertices = 0;
   std::vector<std::vector<double>> between;  ///< the sources
 
-  template <class Real>
-  void add(const std::vector<Real>& found, const std::vector<double>& exact,
+  void add(const std::vector<float>& found, const std::vector<double>& exact,
            const std::vector<std::array<double, 3>>& places, Index source) {
     double sum = 0;
     std::size_t count = 0;
@@ -63,33 +45,26 @@ struct Judged {
   }
 };
 
-void measure(const std::string& file, const Options& options, bench::Table& table) {
-  const bench::Surface surface = bench::read_surface(file);
-  const TriangleMesh<float> mesh(surface.positions, surface.faces);
-  const TriangleMesh<double> exact_mesh(surface.positions, surface.faces);
-  std::mt19937 random(options.seed);
+void measure(const Surface& surface, std::size_t count, unsigned seed, Table& table) {
+  const plexway::TriangleMesh<float> mesh(surface.positions, surface.faces);
+  const plexway::TriangleMesh<double> exact_mesh(surface.positions, surface.faces);
+  std::mt19937 random(seed);
   std::vector<Index> sources;
-  for (std::size_t k = 0; k < options.sources; ++k)
+  for (std::size_t k = 0; k < count; ++k)
     sources.push_back(surface.faces[random() % surface.faces.size()][random() % 3]);
-  Workspace<float> workspace;
-  Workspace<double> exact_workspace;
-  DistanceField<float> field;
-  DistanceField<double> exact;
-  PropagateOptions options_of_exact;
-  options_of_exact.accuracy = Accuracy::exact();
+  Solver exact(exact_mesh, by_accuracy("exact"));
+  Solver solver(mesh);
   Judged judged[2];
-  const PropagateOptions accuracies[2] = {PropagateOptions{}, bench::one_label()};
+  const plexway::PropagateOptions accuracies[2] = {{}, one_label()};
   for (const Index source : sources) {
-    const PointSource from = PointSource::at(source);
-    solve(Serial{}, exact_mesh, std::span(&from, 1), options_of_exact, exact_workspace, exact);
+    exact(source);
     for (std::size_t a = 0; a < 2; ++a) {
-      solve(Serial{}, mesh, std::span(&from, 1), accuracies[a], workspace, field);
-      judged[a].add(field.distance, exact.distance, surface.positions, source);
+      solver.solve(source, accuracies[a]);
+      judged[a].add(solver.distance(), exact.distance(), surface.positions, source);
       std::vector<double>& row = judged[a].between.emplace_back();
-      for (const Index other : sources) row.push_back(static_cast<double>(field.distance[other]));
+      for (const Index other : sources)
+        row.push_back(static_cast<double>(solver.distance()[other]));
     }
-    if (judged[0].fields % 20 == 0)
-      std::cerr << surface.name << ": " << judged[0].fields << " sources" << std::endl;
   }
   for (std::size_t a = 0; a < 2; ++a)
     table.add({{"mesh", surface.name},
@@ -104,26 +79,19 @@ void measure(const std::string& file, const Options& options, bench::Table& tabl
                {"below", judged[a].below}});
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  Options options;
-  CLI::App app("Windows from random sources beside exact ones");
-  app.add_option("MESH", options.meshes, "surfaces")->required();
-  app.add_option("--sources", options.sources, "of each (200)")->check(CLI::Range(1, 100000));
-  app.add_option("--seed", options.seed, "of the random sources (1)");
-  options.report.add_options(app);
-  CLI11_PARSE(app, argc, argv);
-  bench::Table table({{"mesh", "mesh"},
-                      {"vertices", "vertices"},
-                      {"accuracy", "accuracy"},
-                      {"sources", "sources"},
-                      {"mean", "mean", "%.1e"},
-                      {"max", "worst vertex", "%.1e"},
-                      {"beyond", "share beyond 5e-3", "%.1e"},
-                      {"asymmetry", "two ways differ by", "%.1e"},
-                      {"below", "below the line", "%.1e"}});
-  return options.report.write(table, [&] {
-    for (const std::string& mesh : options.meshes) measure(mesh, options, table);
-  });
+void run(Arguments& arguments) {
+  std::vector<std::string> meshes;
+  std::size_t sources = 200;
+  unsigned seed = 1;
+  arguments.required("MESH", &meshes, "Surfaces (.obj .off .ply .stl)");
+  arguments.positive("--sources", &sources, "Of each");
+  arguments.option("--seed", &seed, "Of the random sources");
+  Table& table = arguments.table(
+      "mesh; vertices; accuracy; sources; mean %.1e; max: worst vertex %.1e;"
+      "beyond: share beyond 5e-3 %.1e; asymmetry: two ways differ by %.1e;"
+      "below: below the line %.1e");
+  for (const std::string& mesh : meshes) measure(read_surface(mesh), sources, seed, table);
 }
+const Command command("window_sources", "windows from random sources beside exact ones", run);
+
+}  // namespace bench::window_sources

@@ -2,49 +2,16 @@
 // of its variants, on a square grid, a lattice of struts and a graph whose lengths differ by twelve
 // powers of ten. All three take turns in one process.
 
-#include <CLI/CLI.hpp>
+#ifdef PLEXWAY_HAS_BOOST_GRAPH
+
 #include <cmath>
-#include <functional>
-#include <iostream>
-#include <memory>
-#include <numeric>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <plexway/boost_graph/dijkstra.hpp>
-#include <plexway/solve.hpp>
 
-#include "../data/shapes.hpp"
-#include "compare.hpp"
+#include "scenes.hpp"
+#include "solver.hpp"
 
-namespace {
-
-using bench::Index;
-
-struct Wires {
-  std::string name;
-  std::vector<std::array<double, 3>> positions;
-  std::vector<std::array<Index, 2>> edges;
-  std::vector<double> lengths;  // empty: from the positions
-};
-
-/// nx by ny by nz points a unit apart, each pushed by up to `push` along each axis that there is.
-Wires lattice(std::string name, Index nx, Index ny, Index nz, double push) {
-  Wires wires{std::move(name), {}, {}, {}};
-  samples::Noise noise(1);
-  for (Index k = 0; k < nz; ++k)
-    for (Index j = 0; j < ny; ++j)
-      for (Index i = 0; i < nx; ++i) {
-        const Index v = static_cast<Index>(wires.positions.size());
-        const double x = push * noise(), y = push * noise(), z = nz > 1 ? push * noise() : 0;
-        wires.positions.push_back({i + x, j + y, k + z});
-        if (i > 0) wires.edges.push_back({v - 1, v});
-        if (j > 0) wires.edges.push_back({v - nx, v});
-        if (k > 0) wires.edges.push_back({v - nx * ny, v});
-      }
-  return wires;
-}
+namespace bench::wireframes {
 
 /// A path through all vertices in a row, and twice as many edges between any two of them.
 Wires spread_lengths(Index n) {
@@ -64,12 +31,7 @@ Wires spread_lengths(Index n) {
 /// Vertices in an order that says nothing about where they are.
 void shuffle(Wires& wires) {
   samples::Noise noise(3);
-  std::vector<Index> place(wires.positions.size());
-  std::iota(place.begin(), place.end(), Index{0});
-  for (std::size_t i = place.size(); i > 1; --i) {
-    const double at = (noise() + 1) / 2 * static_cast<double>(i);
-    std::swap(place[i - 1], place[std::min(i - 1, static_cast<std::size_t>(at))]);
-  }
+  const auto place = shuffled(wires.positions.size(), noise);
   const auto old = wires.positions;
   for (std::size_t v = 0; v < old.size(); ++v) wires.positions[place[v]] = old[v];
   for (auto& edge : wires.edges)
@@ -84,26 +46,21 @@ plexway::Wireframe<Real> wireframe_of(const Wires& wires) {
 }
 
 template <class Real>
-nlohmann::ordered_json measure(const Wires& wires, const bench::Effort& effort) {
+Row measure(const Wires& wires, const Effort& effort) {
   const double vertices = static_cast<double>(wires.positions.size());
-  nlohmann::ordered_json row;
+  Row row;
   std::unique_ptr<plexway::Wireframe<Real>> wireframe;
   row["build_ns_per_vertex"] =
-      1e9 / vertices * bench::seconds([&] {
+      1e9 / vertices * seconds([&] {
         wireframe = std::make_unique<plexway::Wireframe<Real>>(wireframe_of<Real>(wires));
       });
-  plexway::Workspace<Real> workspace;
-  plexway::DistanceField<Real> field;
+  Solver solver(*wireframe);
   plexway::boost_graph::EdgeDijkstra<Real> dijkstra{plexway::boost_graph::EdgeGraph(*wireframe)};
-
-  const auto sources = bench::spread_numbers(effort.sources, wires.positions.size());
-  const auto solve = [&](Index v) {
-    const auto source = plexway::PointSource::at(v);
-    plexway::solve(plexway::Serial{}, *wireframe, std::span(&source, 1), {}, workspace, field);
-  };
-  const auto documented = bench::take_turns(
+  const auto sources = spread_numbers(effort.sources, wires.positions.size());
+  const auto solve = [&](Index v) { solver(v); };
+  const Times documented = take_turns(
       sources, effort, [&](Index v) { dijkstra.run(v); }, solve);
-  const auto fastest = bench::take_turns(
+  const Times fastest = take_turns(
       sources, effort, [&](Index v) { dijkstra.run_without_colours(v); }, solve);
   row["ns_per_vertex"] = 1e9 * documented.second / vertices;
   row["documented_ns_per_vertex"] = 1e9 * documented.first / vertices;
@@ -114,47 +71,29 @@ nlohmann::ordered_json measure(const Wires& wires, const bench::Effort& effort) 
   std::size_t different = 0;
   dijkstra.run(sources[0]);
   solve(sources[0]);
-  for (std::size_t v = 0; v < field.distance.size(); ++v)
-    different += field.distance[v] != dijkstra.distance()[v];
+  for (std::size_t v = 0; v < solver.distance().size(); ++v)
+    different += solver.distance()[v] != dijkstra.distance()[v];
   if (different > 0) row["note"] = std::to_string(different) + " distances differ";
-  row["expansions_per_vertex"] = static_cast<double>(field.statistics.expansions) / vertices;
-  row["bytes_per_vertex"] = static_cast<double>(wireframe->bytes() + workspace.bytes() +
-                                                field.distance.capacity() * sizeof(Real)) /
+  row["expansions_per_vertex"] = static_cast<double>(solver.statistics().expansions) / vertices;
+  row["bytes_per_vertex"] = static_cast<double>(wireframe->bytes() + solver.workspace().bytes() +
+                                                solver.distance().capacity() * sizeof(Real)) /
                             vertices;
   return row;
 }
 
-bench::Table wireframe_table() {
-  return bench::Table({{"wireframe", "wireframe"},
-                       {"vertices", "vertices"},
-                       {"edges", "edges"},
-                       {"build_ns_per_vertex", "build ns/V", "%.0f"},
-                       {"ns_per_vertex", "solve ns/V", "%.1f"},
-                       {"documented_ns_per_vertex", "Dijkstra ns/V", "%.1f"},
-                       {"ratio", "ratio", "%.2f"},
-                       {"fastest_ns_per_vertex", "fastest variant ns/V", "%.1f"},
-                       {"fastest_ratio", "ratio to it", "%.2f"},
-                       {"expansions_per_vertex", "expansions/V", "%.2f"},
-                       {"bytes_per_vertex", "bytes/V", "%.0f"},
-                       {"note", "note"}});
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  bench::Effort effort{8, 2, 20};
-  double limit = 600;
+void run(Arguments& arguments) {
+  Effort effort{8, 2, 20};
   double size = 1;
-  bench::Report report;
-  bool double_precision = false;
-  CLI::App app("Wireframes against Boost's Dijkstra: one table");
-  bench::add_effort_options(app, effort);
-  app.add_option("--size", size, "Points along each side, in proportion")->capture_default_str();
-  app.add_option("--limit", limit, "Seconds after which a row is given up")->capture_default_str();
-  app.add_flag("--double", double_precision, "Double instead of float");
-  report.add_options(app);
-  CLI11_PARSE(app, argc, argv);
-
+  bool twice = false;
+  effort.add_options(arguments);
+  arguments.option("--size", &size, "Points along each side, in proportion");
+  arguments.add_limit();
+  arguments.option("--double", &twice, "Double instead of float");
+  Table& table = arguments.table(
+      "wireframe; vertices; edges; build_ns_per_vertex: build ns/V %.0f;"
+      "ns_per_vertex: solve ns/V %.1f; documented_ns_per_vertex: Dijkstra ns/V %.1f; ratio %.2f;"
+      "fastest_ns_per_vertex: fastest variant ns/V %.1f; fastest_ratio: ratio to it %.2f;"
+      "expansions_per_vertex: expansions/V %.2f; bytes_per_vertex: bytes/V %.0f; note");
   const auto side = [&](double points) { return static_cast<Index>(std::max(2.0, size * points)); };
   const Index n = side(1000), m = side(112);
   const std::vector<std::function<Wires()>> all = {
@@ -169,18 +108,18 @@ int main(int argc, char** argv) {
       },
       [&] { return spread_lengths(n * n / 2); },
   };
-  bench::Table table = wireframe_table();
-  return report.write(table, [&] {
-    for (const auto& make : all) {
-      const Wires wires = make();
-      std::cerr << wires.name << std::endl;
-      nlohmann::ordered_json row = {{"wireframe", wires.name},
-                                    {"vertices", wires.positions.size()},
-                                    {"edges", wires.edges.size()}};
-      row.update(bench::isolated(limit, [&] {
-        return double_precision ? measure<double>(wires, effort) : measure<float>(wires, effort);
-      }));
-      table.add(std::move(row));
-    }
-  });
+  for (const auto& make : all) {
+    const Wires wires = make();
+    table.measure({{"wireframe", wires.name},
+                   {"vertices", wires.positions.size()},
+                   {"edges", wires.edges.size()}},
+                  arguments.limit, [&] {
+                    return twice ? measure<double>(wires, effort) : measure<float>(wires, effort);
+                  });
+  }
 }
+const Command command("wireframes", "wireframes against Boost's Dijkstra", run);
+
+}  // namespace bench::wireframes
+
+#endif

@@ -244,13 +244,13 @@ inline Shape hills() {
 
 /// Drops points that no face uses.
 inline Shape compact(const Shape& shape) {
-  constexpr Index none = ~Index{0};
-  std::vector<Index> number(shape.points.size(), none);
+  constexpr Index unused = ~Index{0};
+  std::vector<Index> number(shape.points.size(), unused);
   for (const auto& face : shape.faces)
     for (const Index v : face) number[v] = 0;
   Shape out;
   for (Index i = 0; i < number.size(); ++i)
-    if (number[i] != none) number[i] = out.add(shape.points[i]);
+    if (number[i] != unused) number[i] = out.add(shape.points[i]);
   for (const auto& [a, b, c] : shape.faces) out.faces.push_back({number[a], number[b], number[c]});
   return out;
 }

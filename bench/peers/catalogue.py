@@ -43,16 +43,16 @@ def ours(tool):
 
 
 def compiled(tool):
-    """Those of bench_cgal, or without CGAL of bench_peers: what Debian has as libraries."""
+    """Those of bench_cgal, or without CGAL of bench: what Debian has as libraries."""
     folder = os.path.dirname(tool)
-    with_cgal, without = (os.path.join(folder, name) for name in ("bench_cgal", "bench_peers"))
+    with_cgal, without = (os.path.join(folder, name) for name in ("bench_cgal", "bench"))
     program = with_cgal if os.path.exists(with_cgal) else without
 
     def one(name, inside, method, had, cgal=False):
         missing = "" if os.path.exists(with_cgal if cgal else program) else \
-            "bench_cgal is not built" if cgal else "neither bench_cgal nor bench_peers is built"
+            "bench_cgal is not built" if cgal else "neither bench_cgal nor bench is built"
         return Peer(name, method, had, {"surface": "off"},
-                    [program, "--rows", inside, "{domain}", "--from", "{sources}", "--to", "{out}"], missing)
+                    [program, "peers", "--rows", inside, "{domain}", "--from", "{sources}", "--to", "{out}"], missing)
     return [
         one("Boost Dijkstra", "Boost Dijkstra, float", "Dijkstra along edges, float", "libboost-graph-dev"),
         one("CGAL heat", "CGAL heat, intrinsic Delaunay", "heat method on intrinsic Delaunay triangles", "libcgal-dev",

@@ -1,32 +1,22 @@
-// The table of peers with CGAL's in it: its exact shortest paths (Xin and Wang's) and its heat
+// What `peers` has in bench_cgal besides: CGAL's exact shortest paths (Xin and Wang's) and its heat
 // method. CGAL is under the GPL: it is a peer here and nothing that is installed touches it.
 
 #ifdef PLEXWAY_HAS_EIGEN
 #define CGAL_EIGEN3_ENABLED 1
-#endif
 #include <CGAL/Heat_method_3/Surface_mesh_geodesic_distances_3.h>
-
-#include <memory>
-#include <vector>
+#endif
 
 #include "cgal_exact.hpp"
-#include "compare.hpp"
 
-namespace {
-
-using bench::Index;
-using bench::cgal::ExactPaths;
-using bench::cgal::make_mesh;
-using bench::cgal::Mesh;
+namespace bench::cgal {
 
 #ifdef PLEXWAY_HAS_EIGEN
-
-class Heat final : public bench::Peer {
+class Heat final : public Peer {
   using Method = CGAL::Heat_method_3::Surface_mesh_geodesic_distances_3<
       Mesh, CGAL::Heat_method_3::Intrinsic_Delaunay>;
 
  public:
-  explicit Heat(const bench::Surface& surface)
+  explicit Heat(const Surface& surface)
       : mesh_(make_mesh(surface)),
         found_(mesh_.add_property_map<Mesh::Vertex_index, double>("v:distance", 0).first),
         method_(mesh_) {}  // factorises its matrices
@@ -45,19 +35,17 @@ class Heat final : public bench::Peer {
   Mesh::Property_map<Mesh::Vertex_index, double> found_;
   Method method_;
 };
-
 #endif
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  auto kinds = bench::common_peers();
+const bool added = [] {
 #ifdef PLEXWAY_HAS_EIGEN
-  kinds.push_back({"CGAL heat, intrinsic Delaunay", false,
-                   [](const bench::Surface& surface) { return std::make_unique<Heat>(surface); }});
+  peer_kinds().push_back({"CGAL heat, intrinsic Delaunay", false,
+                          [](const Surface& surface) { return std::make_unique<Heat>(surface); }});
 #endif
-  kinds.push_back(
+  peer_kinds().push_back(
       {"CGAL exact paths", false,
-       [](const bench::Surface& surface) { return std::make_unique<ExactPaths>(surface); }, true});
-  return bench::compare_peers(argc, argv, kinds);
-}
+       [](const Surface& surface) { return std::make_unique<ExactPaths>(surface); }, true});
+  return true;
+}();
+
+}  // namespace bench::cgal
