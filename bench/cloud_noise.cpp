@@ -177,10 +177,10 @@ int main(int argc, char** argv) {
   std::vector<Cloud> clouds;
   for (const std::string& file : files) clouds.push_back(read_cloud(file));
   const std::map<std::string, samples::SampledCloud (*)(std::size_t, double, std::uint64_t)>
-      makers = {{"plane", samples::plane_cloud},
-                {"sphere", samples::sphere_cloud},
-                {"cylinder", samples::cylinder_cloud},
-                {"swiss", samples::swiss_cloud}};
+      makers = {{"plane", samples::sampled_plane},
+                {"sphere", samples::sampled_sphere},
+                {"cylinder", samples::sampled_cylinder},
+                {"swiss", samples::sampled_swiss}};
   for (const std::string& kind : made)
     for (const std::size_t size : sizes)
       for (const double noise : noises) {

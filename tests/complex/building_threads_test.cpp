@@ -21,10 +21,9 @@
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
 
-// Domains of several blocks, built by several threads: the bits of one.
+namespace plexway::testing::building_threads_test {
 
-using namespace plexway;
-using namespace plexway::testing;
+// Domains of several blocks, built by several threads: the bits of one.
 
 namespace {
 
@@ -309,3 +308,5 @@ TEST_CASE("of what is wrong in several blocks the first is named, by any number 
     for (const int threads : several) CHECK(with(threads) == one);
   }
 }
+
+}  // namespace plexway::testing::building_threads_test

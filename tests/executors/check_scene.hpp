@@ -12,14 +12,12 @@
 #include <plexway/solve.hpp>
 
 #include "executors/scenes.hpp"
+#include "propagate/solving.hpp"
 
 namespace plexway::testing {
 
-inline constexpr Visibility visibilities[] = {Visibility::saddles, Visibility::tuned,
-                                              Visibility::centroid, Visibility::upper_bound};
 inline constexpr Accuracy accuracies[] = {Accuracy::fast(), Accuracy::accurate(), Accuracy::exact(),
                                           Accuracy::usual()};
-inline constexpr Schedule schedules[] = {Schedule::dual_queue, Schedule::fifo, Schedule::priority};
 
 /// All of these with each other.
 struct Way {
