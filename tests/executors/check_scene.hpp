@@ -72,7 +72,10 @@ void check_scene(const E& executor, const Scene<D>& scene, Count& count) {
       edge = std::max(edge, straight_between(scene.places[corners[0]], scene.places[v]));
   WorkspaceOf<E, D> workspace;
   DistanceField<RealOf<D>> field;
-  for (const auto& [visibility, accuracy, schedule] : all_ways()) {
+  for (const Way& way : all_ways()) {
+    const auto visibility = way.visibility;
+    const auto accuracy = way.accuracy;
+    const auto schedule = way.schedule;
     std::vector<Source> each;  // what solve_each goes together with
     PropagateOptions options;
     options.accuracy = accuracy;
