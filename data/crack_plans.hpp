@@ -117,11 +117,10 @@ class CrackPlan {
           for (const double off : {-aside, aside}) along.push_back(double(end[0]) / n_ + off);
     // On a crack a point would be on both of its sides.
     for (const Crack& c : cracks_) {
-      const auto [low, high] = std::minmax(c.begin[0], c.end[0]);
+      const double low = double(std::min(c.begin[0], c.end[0])) / n_;
+      const double high = double(std::max(c.begin[0], c.end[0])) / n_;
       if (std::min(c.begin[1], c.end[1]) > row || std::max(c.begin[1], c.end[1]) < row) continue;
-      std::erase_if(along, [&](double x) {
-        return x > double(low) / n_ - aside / 2 && x < double(high) / n_ + aside / 2;
-      });
+      std::erase_if(along, [&](double x) { return x > low - aside / 2 && x < high + aside / 2; });
     }
     std::vector<Point2> nodes = {beside_[from]};
     for (Number v = 0; v < places_.size(); ++v)

@@ -45,7 +45,7 @@ inline void finish(SampledCloud& cloud, double noise, Noise& random) {
 }
 
 /// A unit sphere. Noise in spacings, as below.
-inline SampledCloud sphere_cloud(std::size_t n, double noise = 0, std::uint64_t seed = 1) {
+inline SampledCloud sampled_sphere(std::size_t n, double noise = 0, std::uint64_t seed = 1) {
   Noise random(seed);
   SampledCloud cloud;
   cloud.spacing = std::sqrt(4 * pi / static_cast<double>(n));
@@ -78,19 +78,19 @@ inline SampledCloud bent_sheet(std::size_t n, double width, double height, doubl
 }
 
 /// The unit square.
-inline SampledCloud plane_cloud(std::size_t n, double noise = 0, std::uint64_t seed = 2) {
+inline SampledCloud sampled_plane(std::size_t n, double noise = 0, std::uint64_t seed = 2) {
   return bent_sheet(n, 1, 1, noise, seed, [](double s) { return std::array{s, 0.0, 1.0, 0.0}; });
 }
 
 /// Three quarters of a cylinder of radius 1 and height 3.
-inline SampledCloud cylinder_cloud(std::size_t n, double noise = 0, std::uint64_t seed = 3) {
+inline SampledCloud sampled_cylinder(std::size_t n, double noise = 0, std::uint64_t seed = 3) {
   return bent_sheet(n, 1.5 * pi, 3, noise, seed, [](double s) {
     return std::array{std::cos(s), std::sin(s), -std::sin(s), std::cos(s)};
   });
 }
 
 /// The roll r = t, 1.5 pi <= t <= 4.5 pi, 21 high.
-inline SampledCloud swiss_cloud(std::size_t n, double noise = 0, std::uint64_t seed = 4) {
+inline SampledCloud sampled_swiss(std::size_t n, double noise = 0, std::uint64_t seed = 4) {
   const auto length = [](double t) { return (t * std::hypot(1, t) + std::asinh(t)) / 2; };
   const double first = 1.5 * pi, last = 4.5 * pi;
   return bent_sheet(n, length(last) - length(first), 21, noise, seed, [=](double s) {

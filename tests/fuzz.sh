@@ -1,6 +1,7 @@
 #!/bin/sh
 # Fuzzers, one at a time (clang, libFuzzer, AddressSanitizer, UndefinedBehaviorSanitizer):
 #   tests/fuzz.sh [seconds [folder of the build [seconds in all]]]
+# A folder that is configured, with PLEXWAY_FUZZ, is taken as it is.
 # Each runs for so many seconds, once; where `seconds in all` is given, in turns until they are up,
 # the one that ran least so far first, so the same command goes on where it ended. An hour of each:
 #   tests/fuzz.sh 3600
@@ -17,12 +18,17 @@ cd "$(dirname "$0")/.."
 seconds="${1:-3600}"
 folder="${2:-build/fuzz}"
 in_all="${3:-0}"
-.ci/configure "$folder" -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1" \
-  -DCMAKE_CXX_COMPILER=clang++ -DPLEXWAY_FUZZ=ON "-DPLEXWAY_SANITIZE=address;undefined" \
-  "-DPLEXWAY_BUILD_TOOL=${PLEXWAY_FUZZ_TOOL:-OFF}" \
-  -DPLEXWAY_BUILD_BENCH=OFF -DPLEXWAY_BUILD_EXAMPLES=OFF \
-  -DPLEXWAY_WITH_OPENVDB=OFF -DPLEXWAY_WITH_PCL=OFF -DPLEXWAY_WITH_GL=OFF \
-  -DPLEXWAY_WITH_FLANN=OFF -DPLEXWAY_WITH_BOOST_GRAPH=OFF >/dev/null
+if [ ! -f "$folder/CMakeCache.txt" ]; then
+  .ci/configure "$folder" -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1" \
+    -DCMAKE_CXX_COMPILER=clang++ -DPLEXWAY_FUZZ=ON "-DPLEXWAY_SANITIZE=address;undefined" \
+    -DPLEXWAY_BUILD_TOOL=OFF -DPLEXWAY_BUILD_TESTS=OFF \
+    -DPLEXWAY_BUILD_BENCH=OFF -DPLEXWAY_BUILD_EXAMPLES=OFF \
+    -DPLEXWAY_WITH_OPENVDB=OFF -DPLEXWAY_WITH_PCL=OFF -DPLEXWAY_WITH_GL=OFF \
+    -DPLEXWAY_WITH_FLANN=OFF -DPLEXWAY_WITH_BOOST_GRAPH=OFF >/dev/null
+fi
+if [ "${PLEXWAY_FUZZ_TOOL:-OFF}" = ON ]; then
+  cmake -DPLEXWAY_BUILD_TOOL=ON "$folder" >/dev/null
+fi
 cmake --build "$folder" --parallel "$(nproc)" --target plexway_fuzzers
 folder="$(realpath "$folder")"  # that of argument lines moves to a folder of its own
 until="$(($(date +%s) + in_all))"

@@ -25,9 +25,10 @@
 #include "folder.hpp"
 #include "with_accuracy.hpp"
 
+namespace plexway::any_domain_test {
+
 namespace {
 
-using namespace plexway;
 namespace meshes = plexway::testing;
 using meshes::Surface;
 
@@ -451,3 +452,5 @@ TEST_CASE("any domain: a mixed domain over shared vertices") {
   CHECK(from[end] == Approx(2.5));
   CHECK(from[row.back()[1]] == Approx(2.5));
 }
+
+}  // namespace plexway::any_domain_test

@@ -9,7 +9,7 @@
 #include "any/cloud_slopes.hpp"
 #include "complex/point3.hpp"
 
-using namespace plexway;
+namespace plexway::cloud_slopes_test {
 
 namespace {
 
@@ -76,3 +76,5 @@ TEST_CASE("slopes of a cloud: nothing to go by is no slope") {
       CHECK(slope == Point3{});
     }
 }
+
+}  // namespace plexway::cloud_slopes_test

@@ -12,7 +12,7 @@
 
 #include "data/crack_plans.hpp"
 
-using namespace plexway;
+namespace plexway::field_remarks_test {
 
 namespace {
 
@@ -309,3 +309,5 @@ TEST_CASE("where vertices of a solid may be too far behind several edges is told
   CHECK_FALSE(told(whole, two, cracks));
   CHECK_FALSE(told(whole, two, several));
 }
+
+}  // namespace plexway::field_remarks_test

@@ -22,6 +22,8 @@
 #include "any/kinds.hpp"
 #include "folder.hpp"
 
+namespace files_table_test {
+
 using namespace any_testing;
 using Catch::Matchers::EndsWith;
 
@@ -208,3 +210,5 @@ TEST_CASE("points that are converted are copied") {
     CHECK_THROWS_WITH(convert(in, out, asking(reading, {})),
                       EndsWith(Support(Refusal::copied_points).sentence()));
 }
+
+}  // namespace files_table_test

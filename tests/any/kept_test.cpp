@@ -20,9 +20,10 @@
 #include "complex/test_wires.hpp"
 #include "folder.hpp"
 
+namespace plexway::kept_test {
+
 namespace {
 
-using namespace plexway;
 namespace meshes = plexway::testing;
 using Catch::Matchers::Contains;
 
@@ -273,3 +274,5 @@ TEST_CASE("changed parts behind a right checksum are refused, or do no harm") {
   }
   CHECK(refused > 100);
 }
+
+}  // namespace plexway::kept_test

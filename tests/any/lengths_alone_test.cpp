@@ -24,6 +24,8 @@
 #include "any/partitioned_field.hpp"
 #include "folder.hpp"
 
+namespace lengths_alone_test {
+
 using namespace any_testing;
 using Catch::Matchers::EndsWith;
 
@@ -158,3 +160,5 @@ TEST_CASE("what domains themselves are asked") {
   CHECK(metric::triangle_lengths(square.positions, square.faces, speeds).size() ==
         square.faces.size());
 }
+
+}  // namespace lengths_alone_test

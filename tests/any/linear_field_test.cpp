@@ -8,8 +8,7 @@
 
 #include "complex/test_meshes.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::linear_field_test {
 
 namespace {
 
@@ -128,3 +127,5 @@ TEST_CASE("fields of complexes of simplices are read linearly") {
   CHECK_THROWS_WITH(field.at(middle), Catch::Contains("distances are read linearly"));
   CHECK_THROWS_WITH(field.trace(middle), Catch::Contains("paths are traced on"));
 }
+
+}  // namespace plexway::testing::linear_field_test

@@ -19,10 +19,9 @@
 #include "folder.hpp"
 #include "with_accuracy.hpp"
 
-namespace {
+namespace plexway::testing::masked_test {
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
@@ -291,3 +290,5 @@ TEST_CASE("masks that fit nothing, close everything or are to be kept are refuse
   CHECK_THROWS_AS(AnyDomain(shape, with(Mask(16, 18))).keep(folder.at("a.plexway")), UsageError);
   CHECK(folder.files() == 0);
 }
+
+}  // namespace plexway::testing::masked_test

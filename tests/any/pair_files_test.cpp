@@ -17,9 +17,10 @@
 #include "complex/test_meshes.hpp"
 #include "folder.hpp"
 
+namespace plexway::pair_files_test {
+
 namespace {
 
-using namespace plexway;
 namespace meshes = plexway::testing;
 
 AnyShape square(Index n) {
@@ -177,3 +178,5 @@ TEST_CASE("what files were begun with is told from what is asked for now") {
   CHECK(report.resumed_blocks > 0);
   CHECK(left + 4 * report.resumed_blocks == domain.vertices());
 }
+
+}  // namespace plexway::pair_files_test

@@ -16,9 +16,10 @@
 #include "complex/test_meshes.hpp"
 #include "folder.hpp"
 
+namespace plexway::pairs_test {
+
 namespace {
 
-using namespace plexway;
 namespace meshes = plexway::testing;
 
 // Two squares that share an edge, each a part of its own.
@@ -191,3 +192,5 @@ TEST_CASE("a file of any domain goes on where it was ended") {
     CHECK(std::equal(row.begin(), row.end(), all.begin() + static_cast<std::ptrdiff_t>(v * n)));
   }
 }
+
+}  // namespace plexway::pairs_test

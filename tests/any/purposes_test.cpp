@@ -21,6 +21,8 @@
 #include "any/kinds.hpp"
 #include "folder.hpp"
 
+namespace purposes_test {
+
 using namespace any_testing;
 
 TEST_CASE("what is done with a field of any domain") {
@@ -128,3 +130,5 @@ TEST_CASE("how a domain of any kind is made") {
     });
   }
 }
+
+}  // namespace purposes_test

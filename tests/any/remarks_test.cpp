@@ -11,7 +11,7 @@
 
 #include "any/spelling.hpp"
 
-using namespace plexway;
+namespace plexway::remarks_test {
 
 namespace {
 
@@ -152,3 +152,5 @@ TEST_CASE("lengths that no flat simplex has are told, of what a mask leaves") {
   CHECK(violations_of(left).count == 0);
   CHECK(domain_remarks(left).empty());
 }
+
+}  // namespace plexway::remarks_test

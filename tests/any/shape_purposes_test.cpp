@@ -23,6 +23,8 @@
 #include "any/partitioned_field.hpp"
 #include "folder.hpp"
 
+namespace shape_purposes_test {
+
 using namespace any_testing;
 using Catch::Matchers::Contains;
 
@@ -286,3 +288,5 @@ TEST_CASE("what is converted, and what one kind is taken as") {
     }
   }
 }
+
+}  // namespace shape_purposes_test

@@ -13,7 +13,7 @@
 
 #include "data/mixed_pieces.hpp"
 
-using namespace plexway;
+namespace plexway::solid_speeds_test {
 
 TEST_CASE("any domain: paths are refracted where the speeds of a solid jump") {
   const samples::Layers layers = {{.35, .7}, {1, 2, 1.5}};
@@ -84,3 +84,5 @@ TEST_CASE("any domain: paths are refracted where the speeds of a solid jump") {
     CHECK(field[v] == Approx(samples::distance(positions[100], positions[v]) / 3).epsilon(1e-9));
   CHECK(any.solve(OpenMP{2}, PointSource::at(100)).doubles() == field.doubles());
 }
+
+}  // namespace plexway::solid_speeds_test

@@ -9,8 +9,7 @@
 
 #include "complex/test_solids.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::walls_test {
 
 namespace {
 
@@ -69,3 +68,5 @@ TEST_CASE("the boundary of a solid by lengths alone is its vertices") {
   CHECK(boundary.offsets.empty());
   CHECK(boundary.vertices.size() < solid.positions.size());
 }
+
+}  // namespace plexway::testing::walls_test

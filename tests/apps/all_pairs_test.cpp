@@ -14,10 +14,9 @@
 
 #include "executors/scenes.hpp"
 
-namespace {
+namespace plexway::testing::all_pairs_test {
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace {
 
 template <class Real>
 using Rows = std::vector<std::vector<Real>>;
@@ -257,3 +256,5 @@ TEST_CASE("rows of a matrix may start from sets, balls and curves") {
                                rows[k].begin(), rows[k].end(), [](double d) { return d <= 0.4; })));
   }
 }
+
+}  // namespace plexway::testing::all_pairs_test

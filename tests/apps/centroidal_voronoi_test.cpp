@@ -8,7 +8,8 @@
 
 #include "apps/sampling_testing.hpp"
 
-using namespace plexway;
+namespace plexway::centroidal_voronoi_test {
+
 using namespace sampling_testing;
 
 namespace {
@@ -209,3 +210,5 @@ TEST_CASE("cells are refused where options make no sense") {
   cancelled.progress = [](const VoronoiStep&) { return false; };
   CHECK_THROWS_AS(centroidal_voronoi(Serial{}, mesh, seed, cancelled), Cancelled);
 }
+
+}  // namespace plexway::centroidal_voronoi_test

@@ -10,8 +10,7 @@
 #include "apps/path_testing.hpp"
 #include "complex/test_clouds.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::cloud_test {
 
 namespace {
 
@@ -268,3 +267,5 @@ TEST_CASE("as many darts as a cloud has points, or a reason why not") {
     }
   }
 }
+
+}  // namespace plexway::testing::cloud_test

@@ -4,8 +4,7 @@
 
 #include "apps/path_testing.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::edge_path_test {
 
 namespace {
 
@@ -129,3 +128,5 @@ TEST_CASE("paths through sharp tips that touch are straight on both sides") {
     CHECK(path.length == Approx(whole).epsilon(1e-12));
   }
 }
+
+}  // namespace plexway::testing::edge_path_test

@@ -6,7 +6,7 @@
 #include <plexway/apps/evolution.hpp>
 #include <plexway/error.hpp>
 
-using namespace plexway;
+namespace plexway::evolution_test {
 
 namespace {
 
@@ -133,3 +133,5 @@ TEST_CASE("an evolution refuses what makes no sense") {
   CHECK_THROWS_AS(Evolution(plane, options(1, 10), state), UsageError);
   CHECK_THROWS_AS(Evolution(plane, options(1, 3), evolution.state()), UsageError);
 }
+
+}  // namespace plexway::evolution_test

@@ -15,7 +15,8 @@
 #include "apps/sampling_testing.hpp"
 #include "propagate/cracked_solid.hpp"
 
-using namespace plexway;
+namespace plexway::farthest_points_test {
+
 using namespace sampling_testing;
 
 TEST_CASE("each further point of a square is the farthest from those before") {
@@ -114,3 +115,5 @@ TEST_CASE("no points are spread over a solid with a crack: they would be seen th
   CHECK_THROWS_WITH(centroidal_voronoi(Serial{}, solid, start, {.max_iterations = 1}), sentence);
   CHECK_THROWS_WITH(distance_matrix(Serial{}, solid, start), sentence);
 }
+
+}  // namespace plexway::farthest_points_test

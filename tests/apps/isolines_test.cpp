@@ -9,8 +9,7 @@
 
 #include "complex/test_meshes.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::isolines_test {
 
 TEST_CASE("isolines of a height are level and as long as they should be") {
   const Surface s = sphere(4);
@@ -107,3 +106,5 @@ TEST_CASE("a fine field fits together and is as exact as the one it is made of")
   for (std::size_t v = 0; v < fine.positions.size(); ++v)
     CHECK(fine.distance[v] == Approx(fine.positions[v][2] * fine.positions[v][2]).margin(1e-14));
 }
+
+}  // namespace plexway::testing::isolines_test

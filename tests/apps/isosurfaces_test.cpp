@@ -9,7 +9,7 @@
 #include <plexway/apps/isosurfaces.hpp>
 #include <plexway/error.hpp>
 
-using namespace plexway;
+namespace plexway::isosurfaces_test {
 
 namespace {
 
@@ -127,3 +127,5 @@ TEST_CASE("isosurfaces end beside what is not reached and refuse what makes no s
   const std::array<Index, 4> beyond[] = {{0, 1, 2, 99}};
   CHECK_THROWS_AS(isosurfaces(box.positions, beyond, height, value), UsageError);
 }
+
+}  // namespace plexway::isosurfaces_test

@@ -15,8 +15,7 @@
 #include "complex/test_meshes.hpp"
 #include "exact_data.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::labels_test {
 
 namespace {
 
@@ -130,3 +129,5 @@ TEST_CASE("labels of simplices in the caller's order") {
   CHECK(std::count(near.begin(), near.end(), none) > 0);
   CHECK(std::count(near.begin(), near.end(), Index{0}) > 0);
 }
+
+}  // namespace plexway::testing::labels_test

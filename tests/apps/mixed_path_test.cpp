@@ -14,6 +14,8 @@
 #include "apps/path_testing.hpp"
 #include "propagate/mixed_domains.hpp"
 
+namespace mixed_path_test {
+
 namespace {
 
 using namespace mixed_domains;
@@ -354,3 +356,5 @@ TEST_CASE("on a ball with a fast skin distances are those of paths over its face
   CHECK(worst < 1e-2);
   CHECK(low > -1e-3);
 }
+
+}  // namespace mixed_path_test

@@ -9,7 +9,8 @@
 #include "complex/test_solids.hpp"
 #include "data/solid_shapes.hpp"
 
-using namespace plexway;
+namespace plexway::poisson_disk_test {
+
 using namespace sampling_testing;
 
 namespace {
@@ -397,3 +398,5 @@ TEST_CASE("radii too small for memory, or too different for the numbers, are ref
                     Catch::Contains("use double"));
   CHECK(poisson_disks(Serial{}, twice, {.radius = 0.2, .spacing = spacing}).darts.size() > 0);
 }
+
+}  // namespace plexway::poisson_disk_test

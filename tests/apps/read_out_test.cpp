@@ -12,8 +12,7 @@
 #include "complex/test_meshes.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::read_out_test {
 
 namespace {
 
@@ -137,3 +136,5 @@ TEST_CASE("what cannot be read out is said") {
   bare.solve(Serial{}, PointSource::at(0));
   CHECK_THROWS_WITH(bare.gradient(), Catch::Contains("positions"));
 }
+
+}  // namespace plexway::testing::read_out_test

@@ -12,8 +12,7 @@
 #include "propagate/solving.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::search_test {
 
 namespace {
 
@@ -243,3 +242,5 @@ TEST_CASE("a search that finds a distance finds a path on needles too") {
   CHECK(found.paths[0].length == Approx(16.7304).epsilon(1e-4));
   CHECK(found.paths[0].source == 0);
 }
+
+}  // namespace plexway::testing::search_test

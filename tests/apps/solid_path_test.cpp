@@ -10,8 +10,7 @@
 #include "complex/test_wires.hpp"
 #include "exact_data.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::solid_path_test {
 
 namespace {
 
@@ -252,3 +251,5 @@ TEMPLATE_TEST_CASE("paths on wireframes are as long as distances say", "", float
     CHECK(along.length <= 0.25 * w.lengths[4] * (1 + 1e-6) + 1e-12);
   }
 }
+
+}  // namespace plexway::testing::solid_path_test

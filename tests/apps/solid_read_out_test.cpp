@@ -10,8 +10,7 @@
 #include "complex/test_wires.hpp"
 #include "propagate/solid_closed_forms.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::solid_read_out_test {
 
 namespace {
 
@@ -136,3 +135,5 @@ TEST_CASE("a solid of lengths is read out by paths, or linearly") {
   const double straight = std::hypot(centre[0] - from[0], centre[1] - from[1], centre[2] - from[2]);
   CHECK(field.at(5, middle) == Approx(straight).epsilon(1e-9));
 }
+
+}  // namespace plexway::testing::solid_read_out_test

@@ -10,20 +10,20 @@
 #include "exact_data.hpp"
 #include "propagate/solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
-
+namespace plexway {
 // An executor that leaves nothing but distances.
 struct Forgetful {
   static constexpr ExecutorKind kind = ExecutorKind::serial;
   struct Workspace {};
 };
 template <>
-void plexway::solve(const Forgetful&, const TriangleMesh<double>& mesh, const SourceList& sources,
-                    const PropagateOptions& options, Forgetful::Workspace&,
-                    DistanceField<double>& field) {
+void solve(const Forgetful&, const TriangleMesh<double>& mesh, const SourceList& sources,
+           const PropagateOptions& options, Forgetful::Workspace&, DistanceField<double>& field) {
   field = solve(Serial{}, mesh, sources, options);
 }
+}  // namespace plexway
+
+namespace plexway::testing::surface_path_test {
 
 namespace {
 
@@ -371,3 +371,5 @@ TEST_CASE("a wider margin never makes a path longer, and a flat path cannot be s
   CHECK_THROWS_AS(field.trace(0, {.margin = 1}), UsageError);
   CHECK_THROWS_AS(field.trace(0, {.margin = -1}), UsageError);
 }
+
+}  // namespace plexway::testing::surface_path_test

@@ -8,7 +8,7 @@
 
 #include "data/shapes.hpp"
 
-using namespace plexway;
+namespace plexway::tuning_test {
 
 namespace {
 
@@ -153,3 +153,5 @@ TEST_CASE("a set refuses what does not fit") {
   bad.faces[3][1] = 10000;
   CHECK_THROWS_AS(TuningSet({bad}, false), InputError);
 }
+
+}  // namespace plexway::tuning_test

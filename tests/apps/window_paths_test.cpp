@@ -10,8 +10,7 @@
 #include "exact_data.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::window_paths_test {
 
 // Paths, distances inside triangles and directions after a solve by windows.
 namespace {
@@ -186,3 +185,5 @@ TEST_CASE("a matrix of distances by windows") {
   CHECK_THROWS_AS(distance_matrix(Serial{}, s.mesh<float>(), points, {}, Accuracy::exact()),
                   UsageError);
 }
+
+}  // namespace plexway::testing::window_paths_test

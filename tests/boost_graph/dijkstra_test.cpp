@@ -15,6 +15,8 @@
 
 #include "complex/test_wires.hpp"
 
+namespace dijkstra_test {
+
 using plexway::Index;
 using plexway::boost_graph::EdgeDijkstra;
 using plexway::boost_graph::EdgeGraph;
@@ -201,3 +203,5 @@ TEST_CASE("Dijkstra on the edges of a surface and on the surface agree") {
   dijkstra.run(7);
   CHECK(worst_difference(dijkstra.distance(), textbook(soup, 7)) <= 1e-14);
 }
+
+}  // namespace dijkstra_test

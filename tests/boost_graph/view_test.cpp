@@ -15,8 +15,8 @@
 
 #include "complex/test_wires.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::view_test {
+
 using boost_graph::Components;
 using boost_graph::EdgeGraph;
 using boost_graph::GraphView;
@@ -243,3 +243,5 @@ TEST_CASE("an edge graph refuses what is none, and a view is a graph to make a w
   const auto field = solve(Serial{}, back, PointSource::at(0));
   check_close(field.distance, edge_distances(wires, 0), 1e-14);
 }
+
+}  // namespace plexway::testing::view_test

@@ -11,8 +11,8 @@
 
 #include "complex/test_wires.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::wireframe_test {
+
 using boost_graph::make_wireframe;
 
 namespace {
@@ -105,3 +105,5 @@ TEST_CASE("a graph that is no wireframe is refused, and the edge is named") {
   const Undirected<double> empty(3);
   CHECK_THROWS_AS(make_wireframe(empty, get(boost::edge_weight, empty)), InputError);
 }
+
+}  // namespace plexway::testing::wireframe_test

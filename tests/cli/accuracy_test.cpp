@@ -7,6 +7,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace accuracy_test {
+
 using namespace cli_testing;
 using io_testing::Folder;
 
@@ -177,3 +179,5 @@ TEST_CASE("distance is accurate by default where labels are far off") {
   CHECK(both.code == 2);
   CHECK(both.complaints() == 1);
 }
+
+}  // namespace accuracy_test

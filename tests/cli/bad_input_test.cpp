@@ -6,6 +6,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace bad_input_test {
+
 using namespace cli_testing;
 using io_testing::bytes_of;
 using io_testing::Folder;
@@ -218,3 +220,5 @@ TEST_CASE("what this build lacks has its own exit code") {
 TEST_CASE("a file name with a line end stays on one line") {
   check_refused(run_tool({"distance", "no\nsuch.obj", "-s", "vertex:0"}), 3, "no?such.obj");
 }
+
+}  // namespace bad_input_test

@@ -9,6 +9,8 @@
 #include "exact_data.hpp"
 #include "io/io_testing.hpp"
 
+namespace bench_test {
+
 using namespace cli_testing;
 using io_testing::Folder;
 
@@ -162,3 +164,5 @@ TEST_CASE("bench meets the exact answers of a scan") {
   CHECK(run.json()["mean"].get<double>() < 3.3e-3);
   CHECK(run.json()["mismatched_unreached"] == 0);
 }
+
+}  // namespace bench_test

@@ -10,6 +10,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace cloud_files_test {
+
 using namespace cli_testing;
 using Catch::Contains;
 using io_testing::bytes_of;
@@ -223,3 +225,5 @@ TEST_CASE("a build without PCL says what to install") {
   check_refused(distance(xyz, {"--denoise"}), 4, needed);
 }
 #endif
+
+}  // namespace cloud_files_test

@@ -10,6 +10,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace cloud_paths_test {
+
 using namespace cli_testing;
 using io_testing::bytes_of;
 using io_testing::Folder;
@@ -82,4 +84,6 @@ TEST_CASE("points of a cloud are chosen by distance along it") {
   CHECK(matrix.code == 0);
   CHECK(matrix.json()["points"] == 2);
 }
+
+}  // namespace cloud_paths_test
 #endif

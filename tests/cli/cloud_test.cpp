@@ -13,6 +13,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace cloud_test {
+
 using namespace cli_testing;
 using Catch::Contains;
 using io_testing::bytes_of;
@@ -264,4 +266,6 @@ TEST_CASE("making a cloud ready shows its progress on a terminal") {
   CHECK(run.code == 0);
   CHECK_THAT(run.err, Contains("looking for neighbours"));
 }
+
+}  // namespace cloud_test
 #endif

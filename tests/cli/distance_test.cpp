@@ -5,6 +5,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace distance_test {
+
 using namespace cli_testing;
 using io_testing::Folder;
 
@@ -217,3 +219,5 @@ TEST_CASE("reaching nothing has its own exit code") {
   CHECK(run.json()["reached"] == 1);
   CHECK(run.json()["max_distance"] == 0);
 }
+
+}  // namespace distance_test

@@ -7,6 +7,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace executor_test {
+
 using namespace cli_testing;
 
 namespace {
@@ -96,3 +98,5 @@ TEST_CASE("bench takes an executor") {
   REQUIRE(run.code == 0);
   CHECK(run.json()["executor"] == "openmp");
 }
+
+}  // namespace executor_test

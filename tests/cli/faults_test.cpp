@@ -14,6 +14,8 @@
 #include "cli/tool.hpp"
 #include "exact_data.hpp"
 
+namespace faults_test {
+
 using namespace cli_testing;
 using plexway::AnyShape;
 using plexway::Index;
@@ -171,3 +173,5 @@ TEST_CASE("faults: what is out of proportion, or without end, ends in one line")
   CHECK((hang.code == 0 || hang.code == 3));
   CHECK(run_tool({"poisson", grid, "--radius", "1e40"}).code == 0);
 }
+
+}  // namespace faults_test

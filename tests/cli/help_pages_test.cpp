@@ -9,6 +9,8 @@
 #include "cli/tool.hpp"
 #include "folder.hpp"
 
+namespace help_pages_test {
+
 using namespace cli_testing;
 
 namespace {
@@ -67,3 +69,5 @@ TEST_CASE("without its program TetGen is not there, and that is no fault of the 
   CHECK(run.complaints() == 1);
   CHECK(empty.files() == 0);
 }
+
+}  // namespace help_pages_test

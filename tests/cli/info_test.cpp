@@ -9,6 +9,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace info_test {
+
 using namespace cli_testing;
 using io_testing::Folder;
 
@@ -175,3 +177,5 @@ TEST_CASE("help and version go to standard output") {
   CHECK(version.out.rfind("plexway 0.", 0) == 0);
   CHECK(version.out.find("MIT") != std::string::npos);
 }
+
+}  // namespace info_test

@@ -17,6 +17,8 @@
 #include "cli/tool.hpp"
 #include "folder.hpp"
 
+namespace mask_test {
+
 namespace {
 
 using namespace cli_testing;
@@ -346,3 +348,5 @@ TEST_CASE("masks that leave a source or a target nowhere to go are refused in on
   refused({"distance", "--source", "vertex:0", "--as", "cloud", "--mask", closed}, 2, "--mask");
   CHECK(folder.files() == 3);
 }
+
+}  // namespace mask_test

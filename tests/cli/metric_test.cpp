@@ -7,6 +7,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace metric_test {
+
 using namespace cli_testing;
 using io_testing::Folder;
 
@@ -205,3 +207,5 @@ TEST_CASE("speeds by regions are speeds: refracted in solids and on surfaces, to
     CHECK(found[4] == Approx(before + behind / 3).epsilon(1e-6));
   }
 }
+
+}  // namespace metric_test

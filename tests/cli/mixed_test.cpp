@@ -8,6 +8,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace mixed_test {
+
 using namespace cli_testing;
 using Catch::Contains;
 using io_testing::Folder;
@@ -272,3 +274,5 @@ TEST_CASE("simplices of four dimensions come from a file") {
   CHECK(traced.code == 2);
   CHECK_THAT(traced.err, Contains("paths are traced on"));
 }
+
+}  // namespace mixed_test

@@ -9,6 +9,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace notes_test {
+
 using namespace cli_testing;
 using Catch::Contains;
 using io_testing::Folder;
@@ -79,4 +81,6 @@ TEST_CASE("where there is nothing to say notes are an empty list") {
   REQUIRE(far.json().at("notes").size() == 1);
   CHECK_THAT(far.json().at("notes")[0].get<std::string>(), Contains("not reached (inf)"));
 }
+
+}  // namespace notes_test
 #endif

@@ -9,6 +9,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace output_test {
+
 using namespace cli_testing;
 using io_testing::bytes_of;
 using io_testing::Folder;
@@ -137,3 +139,5 @@ TEST_CASE("progress is shown on a terminal only, and not when quiet") {
   CHECK(run_tool_on_terminal(quiet).err.empty());
   CHECK(run_tool(command).err.empty());
 }
+
+}  // namespace output_test

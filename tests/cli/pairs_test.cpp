@@ -17,6 +17,8 @@
 #include "cli/tool.hpp"
 #include "folder.hpp"
 
+namespace pairs_test {
+
 namespace {
 
 using namespace cli_testing;
@@ -480,3 +482,5 @@ TEST_CASE("pairs refuses what makes no sense, in one line") {
   CHECK(other.code == 1);
   CHECK(other.err.find("'input: ") != std::string::npos);
 }
+
+}  // namespace pairs_test

@@ -6,6 +6,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace path_test {
+
 using namespace cli_testing;
 using io_testing::bytes_of;
 using io_testing::Folder;
@@ -96,3 +98,5 @@ TEST_CASE("path takes targets from a file") {
   CHECK(beyond.code == 3);
   CHECK(beyond.complaints() == 1);
 }
+
+}  // namespace path_test

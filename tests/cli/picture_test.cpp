@@ -12,6 +12,8 @@
 #include <plexway/render/image.hpp>
 #endif
 
+namespace picture_test {
+
 using namespace cli_testing;
 using io_testing::Folder;
 
@@ -154,3 +156,5 @@ TEST_CASE("a build without pictures says so") {
 }
 
 #endif
+
+}  // namespace picture_test

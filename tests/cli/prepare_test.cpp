@@ -9,6 +9,8 @@
 #include "cli/tool.hpp"
 #include "folder.hpp"
 
+namespace prepare_test {
+
 using namespace cli_testing;
 using Catch::Matchers::Contains;
 
@@ -89,3 +91,5 @@ TEST_CASE("what is no prepared file, or asks for another one, is one line and it
             .code == 0);
   CHECK(bytes_of(folder.at("again.plexway")) == bytes_of(prepared));
 }
+
+}  // namespace prepare_test

@@ -8,6 +8,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace repairs_test {
+
 using namespace cli_testing;
 using io_testing::Folder;
 
@@ -92,3 +94,5 @@ TEST_CASE("path and distance tell of each other, and counts of repairs are in th
                                  "--triangulation", "delaunay"});
   CHECK(refused.code == 2);
 }
+
+}  // namespace repairs_test

@@ -11,6 +11,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace sampling_test {
+
 using namespace cli_testing;
 using io_testing::bytes_of;
 using io_testing::Folder;
@@ -150,3 +152,5 @@ TEST_CASE("commands that choose points say what is wrong with what they are give
   fails({"farthest", torus}, 2);
   fails({"pairs", torus, "-s", "vertex:99999999"}, 3);
 }
+
+}  // namespace sampling_test

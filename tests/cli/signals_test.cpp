@@ -22,6 +22,8 @@
 #include "data/shapes.hpp"
 #include "io/io_testing.hpp"
 
+namespace signals_test {
+
 using namespace cli_testing;
 using io_testing::bytes_of;
 using io_testing::Folder;
@@ -193,3 +195,5 @@ TEST_CASE("signals that the caller ignores stay ignored") {
   ::kill(child, SIGTERM);
   CHECK(wait_for(child) == 128 + SIGTERM);
 }
+
+}  // namespace signals_test

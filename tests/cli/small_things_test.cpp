@@ -7,6 +7,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace small_things_test {
+
 using namespace cli_testing;
 using Catch::Contains;
 using io_testing::bytes_of;
@@ -205,3 +207,5 @@ TEST_CASE("what the tool writes it reads, as what it was") {
       run_tool({"distance", folder.at("s.vtu").string(), "-s", "vertex:0", "-o", "-", "-q"});
   CHECK(first.out == again.out);
 }
+
+}  // namespace small_things_test

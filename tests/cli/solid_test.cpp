@@ -12,6 +12,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace solid_test {
+
 using namespace cli_testing;
 using io_testing::bytes_of;
 using io_testing::Folder;
@@ -260,3 +262,5 @@ TEST_CASE("bad solids are refused with file and cause") {
   CHECK(far.code == 3);
   CHECK(far.err.find("0 to 324") != std::string::npos);
 }
+
+}  // namespace solid_test

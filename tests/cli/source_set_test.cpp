@@ -11,6 +11,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace source_set_test {
+
 using namespace cli_testing;
 using io_testing::Folder;
 
@@ -250,3 +252,5 @@ TEST_CASE("isosurfaces of a solid go into files") {
   CHECK(refused.code == 2);
   CHECK(refused.complaints() == 1);
 }
+
+}  // namespace source_set_test

@@ -13,6 +13,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace streams_test {
+
 using namespace cli_testing;
 using io_testing::bytes_of;
 using io_testing::Folder;
@@ -125,3 +127,5 @@ TEST_CASE("two names of one output are noticed before anything is done") {
   CHECK(bytes_of(folder.at("hard.ply")) == "old");
   CHECK_FALSE(fs::exists(folder.at("same.ply")));
 }
+
+}  // namespace streams_test

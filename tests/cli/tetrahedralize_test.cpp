@@ -12,6 +12,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace tetrahedralize_test {
+
 using namespace cli_testing;
 using io_testing::bytes_of;
 using io_testing::Folder;
@@ -268,3 +270,5 @@ TEST_CASE("without TetGen filling a surface is not built in, and the package is 
 }
 
 #endif
+
+}  // namespace tetrahedralize_test

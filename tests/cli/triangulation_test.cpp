@@ -5,6 +5,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace triangulation_test {
+
 using namespace cli_testing;
 using io_testing::Folder;
 
@@ -98,3 +100,5 @@ TEST_CASE("labels and unreached vertices survive a refinement") {
   for (std::size_t v = 0; v < a.size(); ++v) CHECK(std::isinf(a[v]) == std::isinf(b[v]));
   CHECK(csv_column(run.out, "label").size() == b.size());
 }
+
+}  // namespace triangulation_test

@@ -9,6 +9,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace tune_test {
+
 using namespace cli_testing;
 using io_testing::Folder;
 
@@ -211,3 +213,5 @@ TEST_CASE("a table goes with the policy it is for") {
   CHECK(tuned.out == solve({"--visibility", "centroid"}).out);
   CHECK(tuned.out != solve({"--visibility", "upper_bound"}).out);
 }
+
+}  // namespace tune_test

@@ -20,6 +20,8 @@
 #include "io/base64.hpp"
 #include "io/io_testing.hpp"
 
+namespace unreached_test {
+
 using namespace cli_testing;
 using io_testing::bytes_of;
 using io_testing::Folder;
@@ -252,3 +254,5 @@ TEST_CASE("unreached: matrices and paths") {
   CHECK(paths[1]["length"].get<double>() == Approx(std::sqrt(2)));
   CHECK(bytes_of(path).find("null") != std::string::npos);
 }
+
+}  // namespace unreached_test

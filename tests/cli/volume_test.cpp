@@ -14,6 +14,8 @@
 #include "data/shapes.hpp"
 #include "io/io_testing.hpp"
 
+namespace volume_test {
+
 using namespace cli_testing;
 using Catch::Contains;
 using io_testing::bytes_of;
@@ -183,3 +185,5 @@ TEST_CASE("a broken surface is refused as a solid, and repaired when asked") {
   CHECK_THAT(run.err, Contains("cannot be repaired") && Contains("encloses nothing"));
 }
 #endif
+
+}  // namespace volume_test

@@ -9,6 +9,8 @@
 #include "cli/tool.hpp"
 #include "io/io_testing.hpp"
 
+namespace wireframe_test {
+
 using namespace cli_testing;
 using io_testing::bytes_of;
 using io_testing::Folder;
@@ -195,3 +197,5 @@ TEST_CASE("bad wireframes are refused with file, line and cause") {
     if (!whole_file) CHECK(run.err.find(file + bad.start) != std::string::npos);
   }
 }
+
+}  // namespace wireframe_test

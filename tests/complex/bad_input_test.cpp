@@ -6,8 +6,8 @@
 
 #include "complex/test_meshes.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::bad_input_test {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -81,3 +81,5 @@ TEST_CASE("an extent beyond the largest number is refused") {
   s.triangle(0, 1, 2);
   CHECK_THAT(error_of([&] { return s.mesh<double>(); }), Contains("face 0"));
 }
+
+}  // namespace plexway::testing::bad_input_test

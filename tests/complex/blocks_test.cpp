@@ -10,6 +10,8 @@
 
 #include <plexway/error.hpp>
 
+namespace blocks_test {
+
 TEST_CASE("blocks cover every number once on any number of threads") {
   for (const int threads : {0, 1, 2, 5})
     for (const std::size_t count : {0u, 1u, 9u, 10u, 11u, 1000u}) {
@@ -57,3 +59,5 @@ TEST_CASE("of several blocks that fail the first one counts") {
                               }),
           "40");
 }
+
+}  // namespace blocks_test

@@ -25,10 +25,9 @@
 #include "complex/tet_gluing.hpp"
 #include "complex/triangle_shape.hpp"
 
-// How meshes are built fast, beside the slow ways of saying the same.
+namespace plexway::testing::building_test {
 
-using namespace plexway;
-using namespace plexway::testing;
+// How meshes are built fast, beside the slow ways of saying the same.
 
 namespace {
 
@@ -428,3 +427,5 @@ TEST_CASE("tetrahedra are glued at their vertices as by a map") {
   CHECK(unfit >= 4);
   CHECK(refused == 2);
 }
+
+}  // namespace plexway::testing::building_test

@@ -6,7 +6,6 @@
 #include <limits>
 #include <numeric>
 #include <random>
-#include <ranges>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,10 +20,9 @@
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
 
-// Domains of several blocks, built by several threads: the bits of one.
+namespace plexway::testing::building_threads_test {
 
-using namespace plexway;
-using namespace plexway::testing;
+// Domains of several blocks, built by several threads: the bits of one.
 
 namespace {
 
@@ -246,7 +244,9 @@ TEST_CASE("the order along the curve does not depend on threads") {
     const std::vector<Index> one = along_curve<1>(points, each, 1);
     std::vector<Index> sorted = one;
     std::sort(sorted.begin(), sorted.end());
-    CHECK(std::ranges::equal(sorted, std::views::iota(Index{0}, static_cast<Index>(count))));
+    std::vector<Index> all(count);
+    std::iota(all.begin(), all.end(), Index{0});
+    CHECK(sorted == all);
     for (const int threads : several) CHECK(along_curve<1>(points, each, threads) == one);
   }
 }
@@ -309,3 +309,5 @@ TEST_CASE("of what is wrong in several blocks the first is named, by any number 
     for (const int threads : several) CHECK(with(threads) == one);
   }
 }
+
+}  // namespace plexway::testing::building_threads_test

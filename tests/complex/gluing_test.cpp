@@ -4,8 +4,7 @@
 
 #include "complex/test_meshes.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::gluing_test {
 
 namespace {
 
@@ -93,3 +92,5 @@ TEST_CASE("gluings that are no cycles are refused") {
   CHECK_THROWS_AS(glue({{none, 3, 3}, {1, none, none}}), InputError);
   CHECK_THROWS_AS(glue({{none, 3, none}}), InputError);
 }
+
+}  // namespace plexway::testing::gluing_test

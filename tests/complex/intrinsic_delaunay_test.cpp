@@ -15,8 +15,7 @@
 #include "complex/intrinsic_triangulation.hpp"
 #include "complex/triangulation_testing.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::intrinsic_delaunay_test {
 
 namespace {
 
@@ -339,3 +338,5 @@ TEST_CASE("edges that flips took are chords, and no others") {
   check_lost(input, triangulate<double>(s.positions, s.faces, Retriangulation::flips).mesh);
   check_lost(input, triangulate<double>(s.positions, s.faces, Retriangulation::refined).mesh);
 }
+
+}  // namespace plexway::testing::intrinsic_delaunay_test

@@ -8,8 +8,7 @@
 
 #include "complex/triangulation_testing.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::intrinsic_map_test {
 
 namespace {
 
@@ -182,3 +181,5 @@ TEST_CASE("refinement makes good triangles and keeps metric and map") {
     CHECK(most == Approx(1).epsilon(1e-9));
   }
 }
+
+}  // namespace plexway::testing::intrinsic_map_test

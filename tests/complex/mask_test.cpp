@@ -15,10 +15,9 @@
 #include "complex/test_solids.hpp"
 #include "with_accuracy.hpp"
 
-namespace {
+namespace plexway::testing::mask_test {
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace {
 
 constexpr double pi = std::numbers::pi;
 
@@ -210,3 +209,5 @@ TEST_CASE("masks close tetrahedra and edges") {
   CHECK_THROWS_AS(Mask(2, 2).open_rows(two_rows, std::vector<double>{1}), UsageError);
   CHECK(Mask(2, 2).open_rows(two_rows, std::vector<double>{1, 2}) == std::vector<double>{1, 2});
 }
+
+}  // namespace plexway::testing::mask_test

@@ -8,6 +8,8 @@
 
 #include "complex/test_clouds.hpp"
 
+namespace neighbours_test {
+
 using plexway::Index;
 using plexway::Neighbours;
 
@@ -83,3 +85,5 @@ TEST_CASE("distinct points refuse what is not finite by name") {
   CHECK_THROWS_WITH(plexway::distinct_points(points), Catch::Contains("point 1"));
   CHECK_THROWS_AS(plexway::distinct_points(points), plexway::InputError);
 }
+
+}  // namespace neighbours_test

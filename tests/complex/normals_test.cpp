@@ -6,8 +6,7 @@
 
 #include "complex/sampled_clouds.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::normals_test {
 
 namespace {
 
@@ -39,7 +38,7 @@ Angles angles(const std::vector<Position>& found, const std::vector<Position>& t
 }  // namespace
 
 TEST_CASE("normals of a plane are exact, wherever and however large it is") {
-  const SampledCloud cloud = plane_cloud(600);
+  const SampledCloud cloud = sampled_plane(600);
   const auto neighbours = all_pairs_neighbours(cloud.points);
   const Position u = samples::unit({1, 2, 2}), v = samples::unit({2, 1, -2});
   const Position n = samples::cross(u, v);
@@ -56,7 +55,7 @@ TEST_CASE("normals of a plane are exact, wherever and however large it is") {
 }
 
 TEST_CASE("normals of curved surfaces are off by a fraction of the spacing over the radius") {
-  const SampledCloud sphere = sphere_cloud(4000), cylinder = cylinder_cloud(4000);
+  const SampledCloud sphere = sampled_sphere(4000), cylinder = sampled_cylinder(4000);
   for (const SampledCloud* cloud : {&sphere, &cylinder}) {
     const auto neighbours = all_pairs_neighbours(cloud->points);
     const TangentPlanes planes = fit_planes(cloud->points, neighbours);
@@ -73,7 +72,7 @@ TEST_CASE("normals of curved surfaces are off by a fraction of the spacing over 
 }
 
 TEST_CASE("normals do not depend on the number of threads") {
-  const SampledCloud cloud = sphere_cloud(9000, .3);
+  const SampledCloud cloud = sampled_sphere(9000, .3);
   Neighbours ring;  // any neighbours will do
   ring.begin.push_back(0);
   for (Index i = 0; i < 9000; ++i) {
@@ -115,3 +114,5 @@ TEST_CASE("normals: lists that are not of these points are refused") {
   bad[1][2] = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(fit_planes(bad, {{0, 1, 2, 3}, {1, 0, 0}}), Catch::Contains("point 1"));
 }
+
+}  // namespace plexway::testing::normals_test

@@ -6,7 +6,7 @@
 #include "complex/cut.hpp"
 #include "complex/partition.hpp"
 
-using namespace plexway;
+namespace plexway::partition_test {
 
 namespace {
 
@@ -131,3 +131,5 @@ TEST_CASE("pieces know their peers, and peers what they have as ghosts") {
   }
   CHECK(own == board.count());
 }
+
+}  // namespace plexway::partition_test

@@ -8,6 +8,8 @@
 
 #include "complex/test_clouds.hpp"
 
+namespace point_cloud_test {
+
 using plexway::CloudOptions;
 using plexway::Index;
 using plexway::Neighbours;
@@ -206,3 +208,5 @@ TEST_CASE("clouds that make no sense are refused by name") {
   CHECK_THROWS_AS(PointCloud<float>(two, Neighbours{{0, 1, 2}, {1, 0}}, options),
                   plexway::UsageError);
 }
+
+}  // namespace point_cloud_test

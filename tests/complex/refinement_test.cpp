@@ -8,8 +8,7 @@
 
 #include "complex/triangulation_testing.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::refinement_test {
 
 namespace {
 
@@ -116,3 +115,5 @@ TEST_CASE("refinement that makes no sense is refused") {
   tried({.smallest_angle = 20, .most_vertices = 1e300});
   tried({.smallest_angle = 20, .shortest_edge = infinity});
 }
+
+}  // namespace plexway::testing::refinement_test

@@ -5,8 +5,7 @@
 
 #include "complex/test_meshes.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::saddle_vertices_test {
 
 // Which vertices bend paths is no matter of how finely a surface is cut.
 namespace {
@@ -80,3 +79,5 @@ TEST_CASE("rounding of coordinates makes no saddles where a surface unrolls") {
       CHECK(share_of_saddles(lifted(n, digit, cylinder)) < 0.02);
     }
 }
+
+}  // namespace plexway::testing::saddle_vertices_test

@@ -14,11 +14,11 @@
 namespace plexway::testing {
 
 using Position = std::array<double, 3>;
-using samples::cylinder_cloud;
-using samples::plane_cloud;
+using samples::sampled_cylinder;
+using samples::sampled_plane;
 using samples::SampledCloud;
-using samples::sphere_cloud;
-using samples::swiss_cloud;
+using samples::sampled_sphere;
+using samples::sampled_swiss;
 
 /// The k nearest of each point, both ways, found by looking at all pairs.
 inline Neighbours all_pairs_neighbours(std::span<const Position> points, std::size_t k = 16) {

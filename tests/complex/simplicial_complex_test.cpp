@@ -9,7 +9,8 @@
 #include <plexway/complex/kuhn_grid.hpp>
 #include <plexway/error.hpp>
 
-using namespace plexway;
+namespace plexway::simplicial_complex_test {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -215,3 +216,5 @@ TEST_CASE("bad grids say which axis") {
   CHECK_THAT(error_of([] { Grid({{{0, 1}, {infinity}}}); }), Contains("axis 1"));
   CHECK_THAT(error_of([] { Grid({1u << 17, 1u << 17}, {1, 1}); }), Contains("too many"));
 }
+
+}  // namespace plexway::simplicial_complex_test

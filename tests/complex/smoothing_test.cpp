@@ -6,8 +6,7 @@
 
 #include "complex/sampled_clouds.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::smoothing_test {
 
 namespace {
 
@@ -30,7 +29,7 @@ double roughness(const SampledCloud& cloud, const std::vector<Position>& points)
 }  // namespace
 
 TEST_CASE("the noise of a cloud is read off its points") {
-  for (const auto make : {sphere_cloud, plane_cloud, cylinder_cloud}) {
+  for (const auto make : {sampled_sphere, sampled_plane, sampled_cylinder}) {
     const auto level = [&](double noise) {
       const SampledCloud cloud = make(3000, noise, 5);
       return noise_level(cloud.points, all_pairs_neighbours(cloud.points));
@@ -43,7 +42,7 @@ TEST_CASE("the noise of a cloud is read off its points") {
 }
 
 TEST_CASE("waves of a surface are no noise, and noise on waves is") {
-  SampledCloud cloud = plane_cloud(4000);
+  SampledCloud cloud = sampled_plane(4000);
   samples::Noise random(8);
   const double h = cloud.spacing;
   std::vector<Position> noisy;
@@ -58,21 +57,22 @@ TEST_CASE("waves of a surface are no noise, and noise on waves is") {
 }
 
 TEST_CASE("smoothing leaves clean clouds as they are, to the last bit") {
-  for (const SampledCloud& cloud : {sphere_cloud(2000), cylinder_cloud(2000), plane_cloud(500)})
+  for (const SampledCloud& cloud :
+       {sampled_sphere(2000), sampled_cylinder(2000), sampled_plane(500)})
     CHECK(smooth(cloud.points, all_pairs_neighbours(cloud.points)) == cloud.points);
 }
 
 TEST_CASE("smoothing moves no point of a clean surface, even if asked to") {
   SmoothOptions always;
   always.least_noise = 0;
-  const SampledCloud plane = plane_cloud(2000);
+  const SampledCloud plane = sampled_plane(2000);
   const auto flat = smooth(plane.points, all_pairs_neighbours(plane.points), always);
   for (std::size_t i = 0; i < flat.size(); ++i) REQUIRE(apart(flat[i], plane.points[i]) < 1e-12);
 
   // A sphere leaves its osculating quadric by the fourth power of the distance.
   double mean[2], largest = 0;
   for (const int fine : {0, 1}) {
-    const SampledCloud sphere = sphere_cloud(fine ? 4000 : 1000);
+    const SampledCloud sphere = sampled_sphere(fine ? 4000 : 1000);
     const auto round = smooth(sphere.points, all_pairs_neighbours(sphere.points), always);
     const double scale = sphere.spacing * sphere.spacing;  // over the radius, 1
     mean[fine] = largest = 0;
@@ -89,7 +89,7 @@ TEST_CASE("smoothing moves no point of a clean surface, even if asked to") {
 }
 
 TEST_CASE("smoothing takes most of the noise away, and only along the normal") {
-  for (const auto make : {sphere_cloud, plane_cloud, cylinder_cloud})
+  for (const auto make : {sampled_sphere, sampled_plane, sampled_cylinder})
     for (const double noise : {.25, .5, 1.0}) {
       const SampledCloud cloud = make(4000, noise, 6);
       const auto smoothed = smooth(cloud.points, all_pairs_neighbours(cloud.points));
@@ -106,7 +106,7 @@ TEST_CASE("smoothing takes most of the noise away, and only along the normal") {
 }
 
 TEST_CASE("smoothing does not depend on threads, and follows a change of unit and place") {
-  const SampledCloud cloud = sphere_cloud(3000, .4);
+  const SampledCloud cloud = sampled_sphere(3000, .4);
   const auto neighbours = all_pairs_neighbours(cloud.points);
   SmoothOptions options;
   options.threads = 1;
@@ -143,7 +143,7 @@ TEST_CASE("smoothing: no surface, no result that is not a number") {
 }
 
 TEST_CASE("smoothing refuses lists of other points and ends when told to") {
-  const SampledCloud cloud = plane_cloud(3000, .3);
+  const SampledCloud cloud = sampled_plane(3000, .3);
   const auto neighbours = all_pairs_neighbours(cloud.points);
   CHECK_THROWS_AS(smooth(std::span(cloud.points).first(10), neighbours), InputError);
   SmoothOptions options;
@@ -158,3 +158,5 @@ TEST_CASE("smoothing refuses lists of other points and ends when told to") {
   CHECK(last <= 1);
   CHECK(last > .5);
 }
+
+}  // namespace plexway::testing::smoothing_test

@@ -9,6 +9,8 @@
 #include <set>
 #include <vector>
 
+namespace spoke_hull_test {
+
 namespace {
 
 using plexway::Index;
@@ -128,3 +130,5 @@ TEST_CASE("places on one circle share its triangles, whoever is asked", "[umbrel
       CHECK(share(at(x, y), at(x + 1, y + 1)) != share(at(x + 1, y), at(x, y + 1)));
     }
 }
+
+}  // namespace spoke_hull_test

@@ -13,8 +13,8 @@
 
 #include "complex/test_solids.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::tet_mesh_test {
+
 using Catch::Matchers::Contains;
 
 namespace {
@@ -258,3 +258,5 @@ TEST_CASE("small tetrahedra are refused by their size beside the extent, whateve
       CHECK_THAT(error(offset, share * least), Contains("tet 1"));
   }
 }
+
+}  // namespace plexway::testing::tet_mesh_test

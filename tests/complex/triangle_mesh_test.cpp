@@ -5,8 +5,7 @@
 
 #include "complex/test_meshes.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::triangle_mesh_test {
 
 namespace {
 
@@ -335,3 +334,5 @@ TEST_CASE("coordinates near the ends of the range") {
     check_records(s.mesh<float>(), s);
   }
 }
+
+}  // namespace plexway::testing::triangle_mesh_test

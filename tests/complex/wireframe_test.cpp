@@ -11,8 +11,8 @@
 #include "complex/test_wires.hpp"
 #include "complex/vertex_order.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::wireframe_test {
+
 using Catch::Contains;
 
 namespace {
@@ -157,3 +157,5 @@ TEST_CASE("vertices of lengths alone are numbered in blocks that lie together") 
     if (block > place.size()) CHECK(cut == 0);
   }
 }
+
+}  // namespace plexway::testing::wireframe_test

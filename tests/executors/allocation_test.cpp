@@ -41,8 +41,7 @@ void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memo
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::allocation_test {
 
 TEMPLATE_TEST_CASE("a second solve allocates nothing", "", float, double) {
   const PointSource first[] = {PointSource::at(3)};
@@ -144,3 +143,5 @@ TEMPLATE_TEST_CASE("solids: a second solve allocates nothing", "", float, double
     }
   }
 }
+
+}  // namespace plexway::testing::allocation_test

@@ -15,8 +15,7 @@
 #include "examples/hexagons.hpp"
 #include "executors/check_scene.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::carried_test {
 
 namespace {
 
@@ -154,3 +153,5 @@ TEST_CASE("a domain of one's own refuses what is not there") {
   Workspace<double> workspace;
   CHECK_THROWS_AS(solve_each(Serial{}, chain, PointSource::at(0), {}, workspace, rows), UsageError);
 }
+
+}  // namespace plexway::testing::carried_test

@@ -12,14 +12,12 @@
 #include <plexway/solve.hpp>
 
 #include "executors/scenes.hpp"
+#include "propagate/solving.hpp"
 
 namespace plexway::testing {
 
-inline constexpr Visibility visibilities[] = {Visibility::saddles, Visibility::tuned,
-                                              Visibility::centroid, Visibility::upper_bound};
 inline constexpr Accuracy accuracies[] = {Accuracy::fast(), Accuracy::accurate(), Accuracy::exact(),
                                           Accuracy::usual()};
-inline constexpr Schedule schedules[] = {Schedule::dual_queue, Schedule::fifo, Schedule::priority};
 
 /// All of these with each other.
 struct Way {
@@ -74,7 +72,10 @@ void check_scene(const E& executor, const Scene<D>& scene, Count& count) {
       edge = std::max(edge, straight_between(scene.places[corners[0]], scene.places[v]));
   WorkspaceOf<E, D> workspace;
   DistanceField<RealOf<D>> field;
-  for (const auto& [visibility, accuracy, schedule] : all_ways()) {
+  for (const Way& way : all_ways()) {
+    const auto visibility = way.visibility;
+    const auto accuracy = way.accuracy;
+    const auto schedule = way.schedule;
     std::vector<Source> each;  // what solve_each goes together with
     PropagateOptions options;
     options.accuracy = accuracy;

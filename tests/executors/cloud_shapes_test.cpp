@@ -13,6 +13,8 @@
 #include "complex/test_clouds.hpp"
 #include "with_accuracy.hpp"
 
+namespace cloud_shapes_test {
+
 using plexway::Accuracy;
 using plexway::Index;
 using plexway::PointCloud;
@@ -176,3 +178,5 @@ TEST_CASE("points that are nearly at one place count as one") {
     CHECK(cloud.of_point(2001) == 2);
   }
 }
+
+}  // namespace cloud_shapes_test

@@ -10,8 +10,7 @@
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::crowding_test {
 
 TEST_CASE("a team that gains nothing leaves the work to one thread, and tries again later") {
   Crowding::report(2, 1);
@@ -60,3 +59,5 @@ TEST_CASE("the same bits whoever works, and though that changes in between", "[t
   other.join();
   Crowding::report(2, 1);
 }
+
+}  // namespace plexway::testing::crowding_test

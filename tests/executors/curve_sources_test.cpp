@@ -16,8 +16,7 @@
 #include "complex/test_meshes.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::curve_sources_test {
 
 namespace {
 
@@ -323,3 +322,5 @@ TEST_CASE("curves as windows: a radius bounds them, a far component is not reach
     }
   }
 }
+
+}  // namespace plexway::testing::curve_sources_test

@@ -13,8 +13,7 @@
 #include "exact_data.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::delaunay_test {
 
 namespace {
 
@@ -123,3 +122,5 @@ TEST_CASE("thin triangles and regular grids are accurate after flips") {
   CHECK(wavy.mean <= 1.5e-3);
   CHECK(wavy.below >= -0.01);
 }
+
+}  // namespace plexway::testing::delaunay_test

@@ -11,8 +11,7 @@
 #include "propagate/solid_solving.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::fields_test {
 
 namespace {
 
@@ -116,3 +115,5 @@ TEST_CASE("fields passes exceptions on", "[threads]") {
                   UsageError);
   CHECK_THROWS_AS(solve_each(Serial{}, mesh, std::span<const PointSource>(sources)), UsageError);
 }
+
+}  // namespace plexway::testing::fields_test

@@ -20,10 +20,9 @@
 #include "executors/thread_ranks.hpp"
 #include "with_accuracy.hpp"
 
-// Surfaces of several files (executors/joined_rows.hpp).
+namespace plexway::testing::joined_rows_test {
 
-using namespace plexway;
-using namespace plexway::testing;
+// Surfaces of several files (executors/joined_rows.hpp).
 
 namespace {
 
@@ -255,3 +254,5 @@ TEST_CASE("joined rows: what is open is refused") {
     }
   CHECK(refused(parts).find("elsewhere") != std::string::npos);
 }
+
+}  // namespace plexway::testing::joined_rows_test

@@ -21,10 +21,9 @@
 #include "executors/team_cases.hpp"
 #include "with_accuracy.hpp"
 
-// Surfaces in parts by labels (`fast`); windows are in surface_parts_test.cpp.
+namespace plexway::testing::label_parts_test {
 
-using namespace plexway;
-using namespace plexway::testing;
+// Surfaces in parts by labels (`fast`); windows are in surface_parts_test.cpp.
 
 namespace {
 
@@ -235,3 +234,5 @@ TEST_CASE("label parts: a tube that is long and thin, as the whole is solved") {
   }
   CHECK(same_bits(found[0], found[1]));
 }
+
+}  // namespace plexway::testing::label_parts_test

@@ -14,8 +14,7 @@
 
 #include "executors/check_scene.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::matrix_test {
 
 namespace {
 
@@ -79,3 +78,5 @@ TEST_CASE("the table, on a GL device", "[gl]") {
   CHECK(count.yes == 2 * 40);
 }
 #endif
+
+}  // namespace plexway::testing::matrix_test

@@ -14,10 +14,9 @@
 #include "executors/piece_testing.hpp"
 #include "propagate/mixed_domains.hpp"
 
-// Mixed domains by a team: their pieces take their turns at once.
+namespace plexway::testing::mixed_team_test {
 
-using namespace plexway;
-using namespace plexway::testing;
+// Mixed domains by a team: their pieces take their turns at once.
 
 namespace {
 
@@ -147,7 +146,7 @@ TEST_CASE("a team refracts paths in layers, and goes over welds", "[threads]") {
     two.weld(two.add(blocks[0], 1), two.add(blocks[1], 2));
     for (const Index source : {Index{200}, Index{50}}) {
       const Position from = two.positions[source];
-      const Errors e = errors(
+      const auto e = errors(
           two, source, [&](Index v) { return layers.time(from, two.positions[v]); }, team);
       CAPTURE(threads, source, e.mean, e.worst, e.low);
       CHECK(e.mean < 1e-5);
@@ -161,7 +160,7 @@ TEST_CASE("a team refracts paths in layers, and goes over welds", "[threads]") {
     const auto wire = flag.add(rod({{-1, .5, 1}, {-2, .5, 1}, {-3, .5, 1}}));
     flag.weld(solid, plate);
     flag.weld(plate, wire);
-    const Errors e = errors(
+    const auto e = errors(
         flag, wire.vertex(2),
         [&](Index v) {
           const Position& p = flag.positions[v];
@@ -260,3 +259,5 @@ TEST_CASE("a mixed domain that joins to one complex goes as that", "[threads]") 
     CHECK(worst < 1e-9);
   }
 }
+
+}  // namespace plexway::testing::mixed_team_test

@@ -13,8 +13,8 @@
 #include "propagate/solving.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::openmp_parity_test {
+
 namespace fs = std::filesystem;
 
 // OpenMP against Serial, by labels (windows are one thread's: the same bits). Where the step is
@@ -160,3 +160,5 @@ TEST_CASE("a team is as accurate as one thread on real surfaces") {
   CHECK(alone_sum > 0);
   CHECK(team_sum < 1.1 * alone_sum);
 }
+
+}  // namespace plexway::testing::openmp_parity_test

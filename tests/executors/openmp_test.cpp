@@ -15,8 +15,7 @@
 #include "propagate/solving.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::openmp_test {
 
 namespace {
 
@@ -203,3 +202,5 @@ TEMPLATE_TEST_CASE("by default a team gives the bits of one thread", "[threads]"
 TEST_CASE("nearest first is a schedule", "[threads]") {
   CHECK(NearestFirst{}.schedule == Schedule::priority);
 }
+
+}  // namespace plexway::testing::openmp_test

@@ -22,10 +22,9 @@
 #include "propagate/solving.hpp"
 #include "with_accuracy.hpp"
 
-// Pieces shared by several processes (OpenMP::ranks), which are threads here. By MPI: tests/mpi.
+namespace plexway::testing::piece_ranks_test {
 
-using namespace plexway;
-using namespace plexway::testing;
+// Pieces shared by several processes (OpenMP::ranks), which are threads here. By MPI: tests/mpi.
 
 namespace {
 
@@ -236,3 +235,5 @@ TEST_CASE("ranks: who has another domain, other sources or options is told", "[t
   const auto again = surface.mesh<float>();
   CHECK(told(mesh, again, {}, origin, 60) == "0 ");
 }
+
+}  // namespace plexway::testing::piece_ranks_test

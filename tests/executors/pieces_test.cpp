@@ -17,10 +17,9 @@
 #include "propagate/workspace_state.hpp"
 #include "with_accuracy.hpp"
 
-// Surfaces by pieces (OpenMP::piece), by labels; windows are in window_pieces_test.cpp.
+namespace plexway::testing::pieces_test {
 
-using namespace plexway;
-using namespace plexway::testing;
+// Surfaces by pieces (OpenMP::piece), by labels; windows are in window_pieces_test.cpp.
 
 namespace {
 
@@ -205,3 +204,5 @@ TEST_CASE("pieces: a workspace goes from surface to surface") {
       CHECK(same_bits(field, solve(pieces(1, 50), mesh, sources, fast())));
     }
 }
+
+}  // namespace plexway::testing::pieces_test

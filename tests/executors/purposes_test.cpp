@@ -17,8 +17,7 @@
 
 #include "executors/check_scene.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::purposes_test {
 
 namespace {
 
@@ -239,3 +238,5 @@ TEST_CASE("the table of what is done besides solving, after a team", "[threads]"
 #undef PLEXWAY_CHECK
   CHECK(count.yes > 10);
 }
+
+}  // namespace plexway::testing::purposes_test

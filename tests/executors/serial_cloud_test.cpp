@@ -11,6 +11,8 @@
 
 #include "complex/test_clouds.hpp"
 
+namespace serial_cloud_test {
+
 using plexway::CloudOptions;
 using plexway::Index;
 using plexway::PointCloud;
@@ -333,3 +335,5 @@ TEST_CASE("radius and sources on clouds are as on surfaces") {
   CHECK_THROWS_AS(plexway::solve(Serial{}, domain, PointSource::in(0, {1.0, 0.0, 0.0})),
                   plexway::UsageError);
 }
+
+}  // namespace serial_cloud_test

@@ -6,8 +6,7 @@
 
 #include "propagate/simplex_testing.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::serial_simplicial_test {
 
 namespace {
 
@@ -207,3 +206,5 @@ TEST_CASE("lengths that would shorten a path for ever do not") {
     check_end<4>(seed);
   }
 }
+
+}  // namespace plexway::testing::serial_simplicial_test

@@ -7,8 +7,7 @@
 
 #include "propagate/solid_solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::serial_solid_test {
 
 namespace {
 const double infinity = std::numeric_limits<double>::infinity();
@@ -127,3 +126,5 @@ TEST_CASE("solids: calls that make no sense are refused") {
   options.visibility = Visibility::tuned;
   refuse(PointSource::at(0), options);
 }
+
+}  // namespace plexway::testing::serial_solid_test

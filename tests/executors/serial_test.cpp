@@ -5,8 +5,7 @@
 #include "propagate/solving.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::serial_test {
 
 namespace {
 
@@ -199,3 +198,5 @@ TEST_CASE("the workspace tells its size") {
   // All in all a closed surface, two faces a vertex, takes at most 274 bytes a vertex.
   CHECK(double(workspace.bytes() + mesh.bytes()) < 274 * double(mesh.vertex_count()));
 }
+
+}  // namespace plexway::testing::serial_test

@@ -14,10 +14,9 @@
 #include "executors/piece_testing.hpp"
 #include "propagate/solid_solving.hpp"
 
-// Solids by pieces (OpenMP::piece).
+namespace plexway::testing::solid_pieces_test {
 
-using namespace plexway;
-using namespace plexway::testing;
+// Solids by pieces (OpenMP::piece).
 
 namespace {
 
@@ -174,3 +173,5 @@ TEST_CASE("pieces: radius, offsets and budgets in solids", "[threads]") {
   solve(pieces(4, 100), mesh, source, {}, workspace, field);
   CHECK(same_bits(field, whole));
 }
+
+}  // namespace plexway::testing::solid_pieces_test

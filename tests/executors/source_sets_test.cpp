@@ -14,8 +14,7 @@
 #include "complex/test_solids.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::source_sets_test {
 
 namespace {
 
@@ -417,3 +416,5 @@ TEST_CASE("sources that are none are refused by name") {
   CHECK_THROWS_WITH(solve(Serial{}, mesh, segment, {.visibility = Visibility::centroid}),
                     Catch::Contains("saddles"));
 }
+
+}  // namespace plexway::testing::source_sets_test

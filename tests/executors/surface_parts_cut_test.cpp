@@ -15,11 +15,10 @@
 #include "executors/parts/same_rows.hpp"
 #include "executors/parts_testing.hpp"
 
+namespace plexway::testing::surface_parts_cut_test {
+
 // Surfaces in parts: into which pieces they are cut, what is told of the whole, where points are,
 // and that all processes have the same.
-
-using namespace plexway;
-using namespace plexway::testing;
 
 namespace {
 
@@ -202,3 +201,5 @@ TEST_CASE("parts: the nearest point, whoever has it") {
     }
   }
 }
+
+}  // namespace plexway::testing::surface_parts_cut_test

@@ -21,11 +21,10 @@
 #include "executors/piece_testing.hpp"
 #include "with_accuracy.hpp"
 
+namespace plexway::testing::surface_parts_test {
+
 // Surfaces in parts (executors/surface_parts.hpp): what the whole says, with the same bits whatever
 // the processes and threads.
-
-using namespace plexway;
-using namespace plexway::testing;
 
 namespace {
 
@@ -406,3 +405,5 @@ TEST_CASE("parts: needles, exactly") {
     CHECK(worst_of(parts.distance, whole.distance) < 1e-12);
   }
 }
+
+}  // namespace plexway::testing::surface_parts_test

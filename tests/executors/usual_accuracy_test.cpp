@@ -13,8 +13,7 @@
 #include "propagate/solving.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::usual_accuracy_test {
 
 namespace {
 
@@ -120,3 +119,5 @@ TEST_CASE("where windows become too many labels take over, or it is said") {
     CHECK(field.accuracy == Accuracy::accurate());
   }
 }
+
+}  // namespace plexway::testing::usual_accuracy_test

@@ -20,11 +20,10 @@
 #include "executors/team_cases.hpp"
 #include "with_accuracy.hpp"
 
+namespace plexway::testing::window_pieces_test {
+
 // Windows by pieces (OpenMP::piece): the bits of Serial where they are exact, as accurate where
 // they are merged, and the same with any number of threads.
-
-using namespace plexway;
-using namespace plexway::testing;
 
 namespace {
 
@@ -376,3 +375,5 @@ TEST_CASE("pieces: every vertex a source of windows, and offsets far apart", "[t
   const auto field = solve(pieces(3, 100), mesh, sources);
   CHECK(parity(solve(Serial{}, mesh, sources), field).worst < 1e-4);
 }
+
+}  // namespace plexway::testing::window_pieces_test

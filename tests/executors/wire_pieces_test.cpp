@@ -17,11 +17,10 @@
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
 
+namespace plexway::testing::wire_pieces_test {
+
 // Wireframes by pieces (OpenMP::piece): distances have Serial's bits, whatever the pieces, since
 // each is the least sum along a path, added from its source on.
-
-using namespace plexway;
-using namespace plexway::testing;
 
 namespace {
 
@@ -283,3 +282,5 @@ TEST_CASE("pieces: by themselves wireframes go in pieces only where that pays") 
   for (double& length : unlike.lengths) length = std::pow(10, 3 * (2 * uniform(random) - 1));
   CHECK(!in_pieces(unlike.wireframe<float>()));  // lengths that differ a million times
 }
+
+}  // namespace plexway::testing::wire_pieces_test

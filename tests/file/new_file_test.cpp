@@ -14,6 +14,8 @@
 
 #include "io/io_testing.hpp"
 
+namespace new_file_test {
+
 using io_testing::bytes_of;
 using io_testing::Folder;
 using plexway::file::NewFile;
@@ -206,3 +208,5 @@ TEST_CASE("a process that a signal ends leaves no file, whatever the signal") {
     }
   }
 }
+
+}  // namespace new_file_test

@@ -14,6 +14,8 @@
 #include "complex/test_clouds.hpp"
 #include "exact_data.hpp"
 
+namespace clouds_test {
+
 namespace {
 
 using plexway::Index;
@@ -295,3 +297,5 @@ TEST_CASE("hostile clouds get a defined result") {
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = {u() + (i < 1000 ? 0 : 50), u(), 0};
   CHECK(finite(points) == 1000);  // two clusters
 }
+
+}  // namespace clouds_test

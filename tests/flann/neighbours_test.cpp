@@ -8,6 +8,8 @@
 
 #include "complex/test_clouds.hpp"
 
+namespace neighbours_test {
+
 using plexway::Index;
 using plexway::Neighbours;
 using plexway::flann::NeighbourOptions;
@@ -226,3 +228,5 @@ TEST_CASE("points nearly at one place do not hide the others from a search") {
     CHECK(others == 16);
   }
 }
+
+}  // namespace neighbours_test

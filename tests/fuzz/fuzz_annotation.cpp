@@ -5,7 +5,7 @@
 #include "fuzz_reader.hpp"
 #include "io/freesurfer_labels.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(annotation)(const std::uint8_t* data, std::size_t size) {
   return fuzz::check_input("input", [&] {
     const auto labels = plexway::io::parse_freesurfer_annotation(
         {reinterpret_cast<const char*>(data), size}, "input");

@@ -13,6 +13,8 @@
 #include "cli/app.hpp"
 #include "fuzz_named_file.hpp"
 
+namespace fuzz_arguments {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -241,7 +243,7 @@ std::vector<std::string> line_of(const std::uint8_t* data, std::size_t size) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(arguments)(const std::uint8_t* data, std::size_t size) {
   static Sandbox sandbox;
   static const bool no_input = [] {
     const int null = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
@@ -274,3 +276,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   sandbox.check_and_clear();
   return 0;
 }
+
+}  // namespace fuzz_arguments

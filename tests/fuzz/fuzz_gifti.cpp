@@ -2,7 +2,7 @@
 
 #include "fuzz_reader.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(gifti)(const std::uint8_t* data, std::size_t size) {
   fuzz::check_reader(plexway::io::parse_gifti, data, size);
   const fuzz::MemoryFile file(data, size);
   return fuzz::check_input(file.name(), [&] { (void)plexway::io::read_gifti_labels(file.name()); });

@@ -7,9 +7,9 @@
 #include "complex/kept_parts.hpp"
 #include "fuzz_solve.hpp"
 
-namespace {
+namespace plexway::fuzz_kept {
 
-using namespace plexway;
+namespace {
 
 template <class Complex>
 void solve_one(KeptIn in) {
@@ -34,7 +34,7 @@ void solve_delaunay(KeptIn in) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(kept)(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::size_t kind = data[0] % 6, bytes = (size - 1) / 64 * 64;
   struct alignas(64) Block {
@@ -70,3 +70,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace plexway::fuzz_kept

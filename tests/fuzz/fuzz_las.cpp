@@ -1,5 +1,5 @@
 #include "fuzz_points.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(las)(const std::uint8_t* data, std::size_t size) {
   return fuzz::check_points(plexway::io::parse_las, data, size);
 }

@@ -10,7 +10,7 @@
 
 #include "fuzz_reader.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(mask)(const std::uint8_t* data, std::size_t size) {
   using plexway::Index;
   if (size < 2) return 0;
   const std::size_t vertices = data[0], count = std::min<std::size_t>(data[1], (size - 2) / 2);

@@ -2,7 +2,7 @@
 
 #include "fuzz_reader.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(node_ele)(const std::uint8_t* data, std::size_t size) {
   const auto parse = [](std::string_view both, std::string_view name) {
     const auto at = both.find('@');
     const std::string_view ele = at == std::string_view::npos ? "" : both.substr(at + 1);

@@ -1,5 +1,5 @@
 #include "fuzz_reader.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(off)(const std::uint8_t* data, std::size_t size) {
   return fuzz::check_reader(plexway::io::parse_off, data, size);
 }

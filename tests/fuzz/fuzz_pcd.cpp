@@ -6,12 +6,9 @@
 
 #ifdef PLEXWAY_HAS_PCL
 #include <plexway/pcl/files.hpp>
-
-// PCL's vectors are not instrumented, and ours are.
-extern "C" const char* __asan_default_options() { return "detect_container_overflow=0"; }
 #endif
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(pcd)(const std::uint8_t* data, std::size_t size) {
   bool passed = false;
   fuzz::check_input("input", [&] {
     const auto promise =

@@ -5,7 +5,7 @@
 #ifdef PLEXWAY_HAS_TETGEN
 #include <plexway/tetgen/piecewise_linear_complex.hpp>
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(poly)(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const fuzz::NamedFile file(data[0] % 2 == 0 ? ".poly" : ".smesh", data + 1, size - 1);
   // Points may be in a .node of the same name, and what is wrong there.
@@ -18,5 +18,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
 }
 #else
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t*, std::size_t) { return 0; }
+PLEXWAY_FUZZER(poly)(const std::uint8_t*, std::size_t) { return 0; }
 #endif

@@ -16,6 +16,8 @@
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 
+#include "fuzz_entry.hpp"
+
 namespace fuzz {
 
 inline void require(bool holds, std::string_view what) {

@@ -6,7 +6,7 @@
 #include "fuzz_reader.hpp"
 #include "io/number_rows.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(rows)(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::uint8_t kind = data[0];
   const fuzz::MemoryFile file(data + 1, size - 1);

@@ -6,6 +6,8 @@
 #include "data/speed_times.hpp"
 #include "fuzz_whole.hpp"
 
+namespace fuzz_solve_mixed {
+
 namespace {
 
 using namespace fuzz;
@@ -108,7 +110,7 @@ void solve_wires(Choices& choices) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(solve_mixed)(const std::uint8_t* data, std::size_t size) {
   Choices choices(data, size);
   const int kind = choices.byte() % 5;
   return check_input({}, [&] {
@@ -120,3 +122,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       solve_wires(choices);
   });
 }
+
+}  // namespace fuzz_solve_mixed

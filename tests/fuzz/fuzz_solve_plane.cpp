@@ -8,10 +8,12 @@
 
 #include "fuzz_plan.hpp"
 
+namespace fuzz_solve_plane {
+
 using namespace fuzz;
 using plexway::PointSource;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(solve_plane)(const std::uint8_t* data, std::size_t size) {
   Choices choices(data, size);
   const std::uint8_t kind = choices.byte();
   const auto cut = cut_of(choices);
@@ -51,3 +53,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
   });
 }
+
+}  // namespace fuzz_solve_plane

@@ -10,6 +10,8 @@
 
 #include "fuzz_solve.hpp"
 
+namespace fuzz_solve_solid {
+
 namespace {
 
 using namespace fuzz;
@@ -69,7 +71,7 @@ void check(const Domain& domain, const Grid& grid, Index source, double slack,
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(solve_solid)(const std::uint8_t* data, std::size_t size) {
   Choices choices(data, size);
   const auto options = options_of(choices);
   const std::uint8_t kind = choices.byte();
@@ -88,3 +90,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             grid, source, slack_of<double>, options);
   });
 }
+
+}  // namespace fuzz_solve_solid

@@ -5,6 +5,8 @@
 
 #include "fuzz_solve.hpp"
 
+namespace fuzz_solve_surface {
+
 namespace {
 
 using namespace fuzz;
@@ -60,7 +62,7 @@ void check_exact(const Soup& soup, Index a, Index b) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(solve_surface)(const std::uint8_t* data, std::size_t size) {
   Choices choices(data, size);
   const auto options = options_of(choices);
   const std::uint8_t kind = choices.byte();
@@ -75,3 +77,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       check<double>(soup, a, options);
   });
 }
+
+}  // namespace fuzz_solve_surface

@@ -4,7 +4,7 @@
 
 #include "fuzz_solve.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(solve_wires)(const std::uint8_t* data, std::size_t size) {
   using namespace fuzz;
   Choices choices(data, size);
   const auto options = options_of(choices);

@@ -8,6 +8,8 @@
 
 #include "fuzz_named_file.hpp"
 
+namespace fuzz_vdb {
+
 namespace {
 
 using fuzz::NamedFile;
@@ -50,7 +52,7 @@ class Parrot {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+PLEXWAY_FUZZER(vdb)(const std::uint8_t* data, std::size_t size) {
   static Parrot parrot;
   if (size == 0) return 0;
   const bool speech = data[0] % 2 == 1;
@@ -71,3 +73,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return 0;
 }
+
+}  // namespace fuzz_vdb

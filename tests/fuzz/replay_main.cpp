@@ -1,5 +1,5 @@
-// Stands in for libFuzzer where there is none: runs the fuzzed function once on each file given,
-// folders with all they hold.
+// Stands in for libFuzzer where there is none: replay NAME FILE... runs the function of
+// fuzz_NAME.cpp once on each file given, folders with all they hold.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+#include "fuzz_entry.hpp"
 
 namespace {
 
-bool replay(const std::filesystem::path& file) {
+using Fuzzer = int (*)(const std::uint8_t*, std::size_t);
+
+bool replay(Fuzzer fuzzer, const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
   if (!in) {
@@ -23,24 +25,29 @@ bool replay(const std::filesystem::path& file) {
   }
   // A copy of its own size, so that a sanitizer sees a read past its end.
   const std::vector<std::uint8_t> exact(bytes.begin(), bytes.end());
-  LLVMFuzzerTestOneInput(exact.data(), exact.size());
+  fuzzer(exact.data(), exact.size());
   return true;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  const auto known = fuzz::fuzzers().find(argc > 1 ? argv[1] : "");
+  if (known == fuzz::fuzzers().end()) {
+    std::cerr << "no such fuzzer\n";
+    return 1;
+  }
   std::size_t files = 0;
   bool good = true;
-  for (int i = 1; i < argc; ++i) {
+  for (int i = 2; i < argc; ++i) {
     if (std::filesystem::is_directory(argv[i])) {
       for (const auto& entry : std::filesystem::recursive_directory_iterator(argv[i])) {
         if (!entry.is_regular_file()) continue;
-        good = replay(entry.path()) && good;
+        good = replay(known->second, entry.path()) && good;
         ++files;
       }
     } else {
-      good = replay(argv[i]) && good;
+      good = replay(known->second, argv[i]) && good;
       ++files;
     }
   }

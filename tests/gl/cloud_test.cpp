@@ -10,7 +10,7 @@
 #include "complex/test_clouds.hpp"
 #include "gl/device.hpp"
 
-using namespace plexway;
+namespace plexway::cloud_test {
 
 TEST_CASE("points of a sphere, two of them twins, on several threads and on a GL device") {
   auto cloud = samples::sphere_cloud(2500);
@@ -32,3 +32,5 @@ TEST_CASE("points of a sphere, two of them twins, on several threads and on a GL
   const auto from_twin = solve(Serial{}, domain, PointSource::at(static_cast<Index>(twin)));
   CHECK(from_twin.distance[17] == 0);
 }
+
+}  // namespace plexway::cloud_test

@@ -16,8 +16,7 @@
 #include "gl/device.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::context_test {
 
 TEST_CASE("devices say what they are, or why they cannot be used", "[gl]") {
   if (!device()) return;
@@ -180,3 +179,5 @@ TEST_CASE("what context was current stays so, and threads take turns", "[gl]") {
   CHECK(difference(expected, solve(GL{}, mesh, source).distance).max < 1e-5);
   CHECK(eglGetCurrentContext() == before);
 }
+
+}  // namespace plexway::testing::context_test

@@ -9,8 +9,7 @@
 #include "gl/device.hpp"
 #include "propagate/solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::corners_test {
 
 TEST_CASE("a device knows of corners as one thread does", "[gl]") {
   if (!device()) return;
@@ -27,3 +26,5 @@ TEST_CASE("a device knows of corners as one thread does", "[gl]") {
       CHECK(errors.below >= -1e-4);
     }
 }
+
+}  // namespace plexway::testing::corners_test

@@ -13,8 +13,7 @@
 #include "complex/test_solids.hpp"
 #include "gl/device.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::identity_test {
 
 namespace {
 
@@ -112,3 +111,5 @@ TEST_CASE("a domain that did not fit leaves nothing of itself on a device", "[gl
   CHECK_THROWS_AS(on_device(large, 0, workspace), NotBuiltError);
   CHECK(double(on_device(small, 0, workspace)[4]) == Approx(4));
 }
+
+}  // namespace plexway::testing::identity_test

@@ -18,8 +18,7 @@
 #include "gl/rounds.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::parity_test {
 
 namespace {
 
@@ -124,3 +123,5 @@ TEST_CASE("a device and a team do the same rounds in solids, and agree in wirefr
     CHECK(found.max <= (exact(*context) ? 0 : 1e-6));
   }
 }
+
+}  // namespace plexway::testing::parity_test

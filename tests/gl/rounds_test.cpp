@@ -10,8 +10,7 @@
 #include "gl/device.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::rounds_test {
 
 namespace {
 
@@ -200,3 +199,5 @@ TEST_CASE("the gl executor refuses what it cannot do", "[gl]") {
   nowhere.device = 77;
   CHECK_THROWS_AS(plexway::solve(nowhere, mesh, source), UsageError);
 }
+
+}  // namespace plexway::testing::rounds_test

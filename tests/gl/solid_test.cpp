@@ -18,8 +18,7 @@
 #include "propagate/solid_closed_forms.hpp"
 #include "propagate/solid_truth.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::solid_test {
 
 namespace {
 
@@ -251,3 +250,5 @@ TEST_CASE("one field a source in a solid on a device", "[gl]") {
     }
   }
 }
+
+}  // namespace plexway::testing::solid_test

@@ -22,8 +22,7 @@
 #include "propagate/solving.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::surface_test {
 
 namespace {
 
@@ -335,3 +334,5 @@ TEST_CASE("one field a source on a device", "[gl]") {
   GLWorkspace workspace;
   CHECK_THROWS_AS(solve_each(GL{}, mesh, sources, {}, workspace, short_of), UsageError);
 }
+
+}  // namespace plexway::testing::surface_test

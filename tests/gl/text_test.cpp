@@ -12,6 +12,8 @@
 #include "kernel/hinge.hpp"
 #include "propagate/saddle_step.hpp"
 
+namespace text_test {
+
 namespace {
 
 using plexway::gl::Buffer;
@@ -219,3 +221,5 @@ TEST_CASE("the saddle step gives in a shader what it gives in C++", "[gl]") {
   CHECK(far <= (plexway::testing::exact(*device) ? 0 : count / 1000));
   if (plexway::testing::exact(*device)) CHECK(different == 0);
 }
+
+}  // namespace text_test

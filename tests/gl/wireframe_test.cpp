@@ -9,8 +9,7 @@
 #include "complex/test_wires.hpp"
 #include "gl/device.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::wireframe_test {
 
 namespace {
 
@@ -137,3 +136,5 @@ TEST_CASE("wireframes on a device: radius, budget, one field a source", "[gl]") 
     }
   }
 }
+
+}  // namespace plexway::testing::wireframe_test

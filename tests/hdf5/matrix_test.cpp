@@ -21,6 +21,8 @@
 #include "io/half.hpp"
 #include "io/io_testing.hpp"
 
+namespace matrix_test {
+
 using io_testing::bytes_of;
 using io_testing::Folder;
 using plexway::hdf5::Matrix;
@@ -214,3 +216,5 @@ TEST_CASE("a disk that gets full under HDF5 is told, whatever was being written"
     CHECK_FALSE(fs::exists(file));
   }
 }
+
+}  // namespace matrix_test

@@ -7,6 +7,8 @@
 
 #include "house/source_tree.hpp"
 
+namespace floors_test {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -173,3 +175,5 @@ TEST_CASE("below the providers nothing includes their libraries") {
     }
   }
 }
+
+}  // namespace floors_test

@@ -14,6 +14,8 @@
 
 #include "house/source_tree.hpp"
 
+namespace one_table_test {
+
 namespace {
 
 // Refusals that sound like the table's and decide something else.
@@ -198,3 +200,5 @@ TEST_CASE("a decision outside of the table is found") {
   CHECK(refusals_of("throw InputError(name +\n \": needs\" + x(1) + \" a surface\");").size() == 1);
   CHECK(refusals_of(R"(throw UsageError("the radius must be >= 0");)").empty());
 }
+
+}  // namespace one_table_test

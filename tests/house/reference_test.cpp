@@ -8,6 +8,8 @@
 
 #include "house/source_tree.hpp"
 
+namespace reference_test {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -67,3 +69,5 @@ TEST_CASE("public headers need no header of src, and all that are details") {
     CHECK(reached.count(name) == 1);
   }
 }
+
+}  // namespace reference_test

@@ -8,6 +8,8 @@
 
 #include "house/source_tree.hpp"
 
+namespace tidy_test {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -141,3 +143,5 @@ TEST_CASE("packages that build messages name are on the list") {
     }
   }
 }
+
+}  // namespace tidy_test

@@ -6,6 +6,8 @@
 
 #include "house/source_tree.hpp"
 
+namespace walk_test {
+
 namespace {
 
 // A row of the page: a file, and its function that the walk goes through.
@@ -115,3 +117,5 @@ TEST_CASE("calls are told from definitions and declarations") {
   CHECK(has("const Lanes<Real> step(1, 2);", "Lanes", Use::called));
   CHECK(has("  explicit Lanes(int a) : a_(a) {}", "Lanes", Use::defined));
 }
+
+}  // namespace walk_test

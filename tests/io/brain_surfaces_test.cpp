@@ -12,9 +12,10 @@
 #include "folder.hpp"
 #include "io/base64.hpp"
 
+namespace plexway::brain_surfaces_test {
+
 namespace {
 
-using namespace plexway;
 using namespace plexway::io;
 
 template <class Number>
@@ -136,3 +137,5 @@ TEST_CASE("GIfTI surfaces are read in all their encodings") {
     CHECK_THROWS_AS(parse_gifti(file, "a.surf.gii"), InputError);
   }
 }
+
+}  // namespace plexway::brain_surfaces_test

@@ -12,8 +12,9 @@
 
 #include "io_testing.hpp"
 
+namespace plexway::cells_test {
+
 using namespace io_testing;
-using namespace plexway;
 using Catch::Contains;
 
 namespace {
@@ -231,3 +232,5 @@ TEST_CASE("glTF that is packed, elsewhere or broken is refused in one line") {
   CHECK_THAT(complaint(io::parse_gltf, R"({"meshes":[[1]],"nodes":[{"mesh":0}]})"),
              Contains("has no points"));
 }
+
+}  // namespace plexway::cells_test

@@ -2,6 +2,8 @@
 
 #include "io_testing.hpp"
 
+namespace edges_test {
+
 using namespace io_testing;
 using Catch::Contains;
 using plexway::io::Edges;
@@ -132,3 +134,5 @@ TEST_CASE("read_edges: the extension picks the format") {
         named("bad.edges") + ":2: the line ends before its second vertex");
   CHECK(plexway::io::edge_extensions().size() == 2);
 }
+
+}  // namespace edges_test

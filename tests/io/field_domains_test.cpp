@@ -4,6 +4,8 @@
 
 #include "tets_testing.hpp"
 
+namespace field_domains_test {
+
 using namespace io_testing;
 using plexway::io::Edges;
 using plexway::io::Tets;
@@ -123,3 +125,5 @@ TEST_CASE("field csv and npy: a solid") {
   CHECK_THAT(csv, Catch::StartsWith("vertex,x,y,z,distance,label\n0,0,0,0,0,0\n1,1,0,0,1,-1\n"));
   CHECK(csv.find("\n5,0.5,0.25,-1.5,2,70000\n") != std::string::npos);
 }
+
+}  // namespace field_domains_test

@@ -12,6 +12,8 @@
 
 #include "io_testing.hpp"
 
+namespace field_writers_test {
+
 using namespace io_testing;
 using Catch::Contains;
 using plexway::io::Triangles;
@@ -318,3 +320,5 @@ TEST_CASE("an estimate of the error is a column behind all others") {
   CHECK_THROWS_AS(write_field(folder.path() / "e.csv", surface, distance, {}, {error.data(), 3}),
                   plexway::UsageError);
 }
+
+}  // namespace field_writers_test

@@ -8,6 +8,8 @@
 
 #include "io_testing.hpp"
 
+namespace gltf_test {
+
 using namespace io_testing;
 using namespace plexway::io;
 
@@ -129,3 +131,5 @@ TEST_CASE("NumPy and VTK read what we write") {
   CHECK(peer("numpy " + quoted(folder.path() / "d.npy") + " 0,1,1.5,inf", folder));
   CHECK(peer("vtk " + quoted(folder.path()) + " 0,1,1.5,inf 0,0,3,-1", folder));
 }
+
+}  // namespace gltf_test

@@ -1,5 +1,7 @@
 #include "tets_testing.hpp"
 
+namespace gmsh_test {
+
 using namespace io_testing;
 using Catch::Contains;
 using plexway::io::parse_gmsh;
@@ -172,3 +174,5 @@ TEST_CASE("gmsh: what is wrong in bytes is named with the byte") {
                                    ": elements of type 999, whose size is not known; save the "
                                    "file as ascii");
 }
+
+}  // namespace gmsh_test

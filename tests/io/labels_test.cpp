@@ -11,9 +11,10 @@
 #include "folder.hpp"
 #include "io/freesurfer_labels.hpp"
 
+namespace plexway::labels_test {
+
 namespace {
 
-using namespace plexway;
 using namespace plexway::io;
 using Labels = std::vector<std::int64_t>;
 
@@ -73,3 +74,5 @@ TEST_CASE("labels that list vertices, and lists of labels") {
   CHECK_THROWS_AS(read_vertex_labels(folder.write("half.txt", "3\n0.5\n"), 2), InputError);
   CHECK_THROWS_AS(read_vertex_labels(folder.at("none.txt"), 2), InputError);
 }
+
+}  // namespace plexway::labels_test

@@ -1,5 +1,7 @@
 #include "tets_testing.hpp"
 
+namespace medit_test {
+
 using namespace io_testing;
 using plexway::io::parse_medit;
 
@@ -87,3 +89,5 @@ TEST_CASE("medit: what is wrong is named with its line") {
   CHECK(medit_complaint(head + vertices() + "Tetrahedra\n1\n1 2 3.5 4 0\n") ==
         "mesh:13: a vertex of the tetrahedron is not a whole number: '3.5'");
 }
+
+}  // namespace medit_test

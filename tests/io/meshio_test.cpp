@@ -11,6 +11,8 @@
 
 #include "tets_testing.hpp"
 
+namespace meshio_test {
+
 using namespace io_testing;
 using plexway::io::Edges;
 using plexway::io::Tets;
@@ -140,3 +142,5 @@ TEST_CASE("we read the solids that meshio writes") {
   }
   CHECK(files == 14);
 }
+
+}  // namespace meshio_test

@@ -6,7 +6,7 @@
 
 #include "io/io_testing.hpp"
 
-using namespace plexway;
+namespace plexway::mixed_field_test {
 
 namespace {
 
@@ -51,3 +51,5 @@ TEST_CASE("a part of a mixed domain that names a vertex it lacks is refused") {
   const io::MixedPart right[] = {{.positions = rod, .edges = edges}};
   CHECK_THROWS_AS(io::write_field(folder.path() / "x.vtu", right, distance), UsageError);
 }
+
+}  // namespace plexway::mixed_field_test

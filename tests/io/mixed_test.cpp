@@ -10,7 +10,8 @@
 
 #include "io_testing.hpp"
 
-using namespace plexway;
+namespace plexway::mixed_test {
+
 using Catch::Contains;
 
 namespace {
@@ -114,3 +115,5 @@ TEST_CASE("simplices of any dimension come from a text") {
   fails("dimension 1\nvertices 2\nsimplices 99999999999\n0 1 1\n", "ends before simplex 1");
   fails("dimension 1\nvertices 2\nsimplices 1\n0 1 1\n0 1 1\n", "behind the last simplex");
 }
+
+}  // namespace plexway::mixed_test

@@ -17,6 +17,8 @@
 #pragma GCC diagnostic pop
 #endif
 
+namespace obj_test {
+
 using namespace io_testing;
 using Catch::Contains;
 using plexway::io::parse_obj;
@@ -194,3 +196,5 @@ TEST_CASE("obj: agrees with tinyobjloader on random well-formed files") {
   }
 }
 #endif
+
+}  // namespace obj_test

@@ -1,5 +1,7 @@
 #include "io_testing.hpp"
 
+namespace off_test {
+
 using namespace io_testing;
 using Catch::Contains;
 using plexway::io::parse_off;
@@ -92,3 +94,5 @@ TEST_CASE("off: truncated files and bad lines are named") {
   CHECK(off_complaint("OFF\n4 0 0\n" + square) ==
         "mesh: has no faces; a surface needs at least one triangle");
 }
+
+}  // namespace off_test

@@ -12,8 +12,9 @@
 #include "io/base64.hpp"
 #include "io_testing.hpp"
 
+namespace plexway::page_test {
+
 using namespace io_testing;
-using namespace plexway;
 using Catch::Contains;
 
 namespace {
@@ -114,3 +115,5 @@ TEST_CASE("pages that make no sense are refused, and leave no file") {
   refused([&](io::Page& page) { page.up = 'w'; });
   refused([&](io::Page& page) { page.positions = {}, page.triangles = {}; });
 }
+
+}  // namespace plexway::page_test

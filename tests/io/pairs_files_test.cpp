@@ -19,9 +19,10 @@
 #include "io/half.hpp"
 #include "io/stored_zip.hpp"
 
+namespace plexway::pairs_files_test {
+
 namespace {
 
-using namespace plexway;
 using namespace plexway::io;
 namespace fs = std::filesystem;
 
@@ -317,3 +318,5 @@ TEST_CASE("parts that are gone or cut are told") {
   CHECK_THROWS_WITH(part.read(0, more), Catch::Contains("shorter"));
   CHECK_THROWS_AS(PartFile(folder.at("no/m.npy"), false), Error);
 }
+
+}  // namespace plexway::pairs_files_test

@@ -10,7 +10,8 @@
 
 #include "io/io_testing.hpp"
 
-using namespace plexway;
+namespace plexway::paths_test {
+
 using io_testing::bytes_of;
 using io_testing::Folder;
 
@@ -83,3 +84,5 @@ TEST_CASE("paths that a format cannot hold are refused") {
   io::write_paths(folder.path() / "p.json", paths);
   CHECK(folder.files() == 1);
 }
+
+}  // namespace plexway::paths_test

@@ -14,7 +14,7 @@
 
 #include "folder.hpp"
 
-using namespace plexway;
+namespace plexway::ply_rows_test {
 
 namespace {
 
@@ -74,7 +74,7 @@ std::string complaint(const std::string& file, std::size_t first = 0, std::size_
 }  // namespace
 
 TEST_CASE("ranges of a binary .ply are rows of the whole") {
-  const testing::Folder folder;
+  const ::testing::Folder folder;
   for (const bool big : {false, true}) {
     const std::string file = folder.write("a.ply", made(big));
     const io::Triangles whole = io::read_triangles(file);
@@ -97,7 +97,7 @@ TEST_CASE("ranges of a binary .ply are rows of the whole") {
 }
 
 TEST_CASE("a .ply is read in parts whatever its header's length, and what comments say") {
-  const testing::Folder folder;
+  const ::testing::Folder folder;
   const std::string good = made(false), file = folder.at("a.ply").string();
   const std::string said = "comment of ours", last = "end_header";
   const auto check = [&](const std::string& comment) {
@@ -124,7 +124,7 @@ TEST_CASE("a .ply is read in parts whatever its header's length, and what commen
 }
 
 TEST_CASE("a .ply that has no rows of one size, or not all of them, is refused") {
-  const testing::Folder folder;
+  const ::testing::Folder folder;
   const auto has = [](const std::string& text, const std::string& part) {
     INFO(text << " has " << part);
     CHECK(text.find(part) != std::string::npos);
@@ -179,3 +179,5 @@ TEST_CASE("a .ply that has no rows of one size, or not all of them, is refused")
   std::vector<std::array<double, 3>> some(vertices);
   CHECK_THROWS_AS(io::PlyRows(file).read_vertices(0, some), InputError);
 }
+
+}  // namespace plexway::ply_rows_test

@@ -2,6 +2,8 @@
 
 #include "io_testing.hpp"
 
+namespace ply_test {
+
 using namespace io_testing;
 using Catch::Contains;
 using plexway::io::parse_ply;
@@ -173,3 +175,5 @@ TEST_CASE("ply: bad binary bodies are named by element and byte") {
               ": coordinate z is not finite");
   }
 }
+
+}  // namespace ply_test

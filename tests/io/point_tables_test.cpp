@@ -7,8 +7,9 @@
 
 #include "io_testing.hpp"
 
+namespace plexway::point_tables_test {
+
 using namespace io_testing;
-using namespace plexway;
 using Catch::Contains;
 
 namespace {
@@ -118,3 +119,5 @@ TEST_CASE("a .las that is packed, cut off or of another kind is refused in one l
   for (const std::size_t at : {107u, 108u, 109u, 110u}) huge[at] = static_cast<char>(0xFF);
   CHECK_THAT(said(huge), Contains("should have 4294967295 points"));
 }
+
+}  // namespace plexway::point_tables_test

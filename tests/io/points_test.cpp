@@ -7,6 +7,8 @@
 
 #include "io_testing.hpp"
 
+namespace points_test {
+
 using namespace io_testing;
 using Catch::Contains;
 using plexway::io::parse_ply_points;
@@ -195,3 +197,5 @@ TEST_CASE("field of a cloud: every format holds one value a point") {
   CHECK_THROWS_AS(plexway::io::write_field(folder.path() / "a.csv", cloud, {distance.data(), 2}),
                   plexway::UsageError);
 }
+
+}  // namespace points_test

@@ -9,7 +9,7 @@
 
 #include "folder.hpp"
 
-using namespace plexway;
+namespace plexway::pvtu_test {
 
 namespace {
 
@@ -51,7 +51,7 @@ using Corners = std::vector<std::array<Index, 3>>;
 }  // namespace
 
 TEST_CASE("a .pvtu names its files beside it") {
-  const testing::Folder folder;
+  const ::testing::Folder folder;
   const auto file = folder.write("d.pvtu", R"(<?xml version="1.0"?>
 <VTKFile type="PUnstructuredGrid" version="0.1">
   <PUnstructuredGrid GhostLevel="1">
@@ -82,7 +82,7 @@ TEST_CASE("a .pvtu names its files beside it") {
 }
 
 TEST_CASE("a part has the ids of its points, and not its neighbours' cells") {
-  const testing::Folder folder;
+  const ::testing::Folder folder;
   const auto read = [&](const std::string& text) {
     return io::read_surface_part(folder.write("part.vtu", text), 3);
   };
@@ -121,3 +121,5 @@ TEST_CASE("a part has the ids of its points, and not its neighbours' cells") {
           "5 numbers of points");
   refused(part("", "", "5 10"), "cells besides polygons");
 }
+
+}  // namespace plexway::pvtu_test

@@ -5,6 +5,8 @@
 
 #include "io/io_testing.hpp"
 
+namespace regions_test {
+
 using namespace io_testing;
 using Catch::Contains;
 using plexway::io::read_regions;
@@ -113,3 +115,5 @@ TEST_CASE("regions of a .vtu are cell data") {
                          "8 9</DataArray></CellData>"),
                     Contains("region"));
 }
+
+}  // namespace regions_test

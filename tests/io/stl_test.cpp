@@ -3,6 +3,8 @@
 
 #include "io_testing.hpp"
 
+namespace stl_test {
+
 using namespace io_testing;
 using Catch::Contains;
 using plexway::io::parse_stl;
@@ -116,3 +118,5 @@ TEST_CASE("stl: bad binary files are named") {
   CHECK(stl_complaint(binary("", {})) ==
         "mesh: has no faces; a surface needs at least one triangle");
 }
+
+}  // namespace stl_test

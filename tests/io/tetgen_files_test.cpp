@@ -1,5 +1,7 @@
 #include "tets_testing.hpp"
 
+namespace tetgen_files_test {
+
 using namespace io_testing;
 using Catch::Contains;
 
@@ -89,3 +91,5 @@ TEST_CASE("node and ele: counts that the file cannot hold are refused before any
   CHECK_THAT(pair_complaint(node_text(0), "9223372036854775807 10 0\n"),
              Contains("there should be"));
 }
+
+}  // namespace tetgen_files_test

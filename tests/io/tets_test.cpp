@@ -4,6 +4,8 @@
 #include "exact_data.hpp"
 #include "tets_testing.hpp"
 
+namespace tets_test {
+
 using namespace io_testing;
 using Catch::Contains;
 using plexway::io::read_tets;
@@ -165,3 +167,5 @@ TEST_CASE("tets: the solids with known answers") {
     if (known.volume != 0) CHECK(volume == Approx(known.volume).epsilon(1e-9));
   }
 }
+
+}  // namespace tets_test

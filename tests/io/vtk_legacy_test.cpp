@@ -1,5 +1,7 @@
 #include "tets_testing.hpp"
 
+namespace vtk_legacy_test {
+
 using namespace io_testing;
 using Catch::Contains;
 using plexway::io::parse_vtk;
@@ -145,3 +147,5 @@ TEST_CASE("vtk: what is wrong is named with its line") {
   CHECK_THAT(vtk_complaint(replaced(ascii3(), "CELLS 3 14", "CELLS 3 99999999999999")),
              Contains("mesh:7: there should be 99999999999999"));
 }
+
+}  // namespace vtk_legacy_test

@@ -3,6 +3,8 @@
 #include "io/vtu_data.hpp"
 #include "tets_testing.hpp"
 
+namespace vtu_test {
+
 using namespace io_testing;
 using Catch::Contains;
 using plexway::io::parse_vtu;
@@ -264,3 +266,5 @@ TEST_CASE(
   for (const std::uint32_t n : {3u, 4294967295u, 4294967295u, 1u, 1u, 1u}) endless.put(n);
   CHECK_THROWS_AS(decode_vtu_array(endless.bytes(), false, encoding, "a", room), plexway::Error);
 }
+
+}  // namespace vtu_test

@@ -11,6 +11,8 @@
 
 #include "kernel/hinge.hpp"
 
+namespace hinge_test {
+
 namespace {
 
 using oracle::Hinge;
@@ -382,3 +384,5 @@ TEST_CASE("K = 2 bends where no projection would", "[kernel]") {
   const Vector crossing = at(1 + 8 * 0.1 / 4.1, 0, 0);  // projected onto the lower edge
   CHECK(path < hinge.bent_at(crossing) - 0.1);
 }
+
+}  // namespace hinge_test

@@ -65,6 +65,8 @@ Float4 sqrt(Float4 a) {
 template <>
 struct std::numeric_limits<lanes::Float4> : std::numeric_limits<float> {};
 
+namespace lanes_test {
+
 namespace {
 
 template <int K>
@@ -107,3 +109,5 @@ TEST_CASE("lanes of a SIMD number agree with scalars to the bit", "[kernel]") {
   check_lanes<2>();
   check_lanes<3>();
 }
+
+}  // namespace lanes_test

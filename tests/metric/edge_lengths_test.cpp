@@ -7,7 +7,8 @@
 #include <plexway/error.hpp>
 #include <plexway/metric/edge_lengths.hpp>
 
-using namespace plexway;
+namespace plexway::edge_lengths_test {
+
 using metric::Point;
 using metric::Tensor;
 
@@ -180,3 +181,5 @@ TEST_CASE("violations are found in triangles and in space") {
   CHECK(solid.count == 2);
   CHECK(solid.first == 2);
 }
+
+}  // namespace plexway::edge_lengths_test

@@ -14,7 +14,8 @@
 #include "data/two_speeds.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
+namespace plexway::flat_test {
+
 using metric::Point;
 using metric::Tensor;
 
@@ -135,3 +136,5 @@ TEST_CASE("a speed on each edge of a wireframe adds up to travel time") {
   CHECK(field.distance[2] == Approx(0.2));
   CHECK(field.distance[3] == Approx(0.3));
 }
+
+}  // namespace plexway::flat_test

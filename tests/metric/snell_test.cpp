@@ -13,7 +13,8 @@
 
 #include "data/two_speeds.hpp"
 
-using namespace plexway;
+namespace plexway::snell_test {
+
 using metric::Point;
 using metric::Tensor;
 using samples::HalvedSquare;
@@ -282,3 +283,5 @@ TEST_CASE("what unfolds over edges is refused where they refract") {
   CHECK_THROWS_WITH(solve(Serial{}, mesh, PointSource::at(0), options),
                     Catch::Contains("paths are refracted under Visibility::saddles only"));
 }
+
+}  // namespace plexway::snell_test

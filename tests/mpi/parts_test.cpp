@@ -14,6 +14,8 @@
 #include "mpi/running.hpp"
 #include "mpi/surfaces.hpp"
 
+namespace parts_test {
+
 using namespace mpi_testing;
 
 namespace {
@@ -377,3 +379,5 @@ TEST_CASE("a rank that dies in parts leaves no field that looks whole") {
   if (killed.code != 0) CHECK(killed.err.find("mpi") != std::string::npos);
   if (killed.code == 0 || fs::exists(out)) CHECK(Parts(out, 2, 131 * 131 + 1).agree);
 }
+
+}  // namespace parts_test

@@ -15,6 +15,8 @@
 #include "mpi/running.hpp"
 #include "mpi/surfaces.hpp"
 
+namespace pieces_test {
+
 using namespace mpi_testing;
 
 namespace {
@@ -261,3 +263,5 @@ TEST_CASE("a disk that gets full, or a rank that dies, leaves no field that look
   REQUIRE(run_program(*mpirun() + Words{"-n", "2"} + tool).code == 0);
   check_parts(out, 2, whole);
 }
+
+}  // namespace pieces_test

@@ -7,6 +7,8 @@
 #include "folder.hpp"
 #include "mpi/running.hpp"
 
+namespace ranks_test {
+
 using namespace mpi_testing;
 
 TEST_CASE("ranks make bit for bit what threads make") {
@@ -147,3 +149,5 @@ TEST_CASE("a disk that gets full ends all ranks, and nothing is lost") {
   REQUIRE(run_ranks(2, command(out)).code == 0);
   CHECK(content(out) == content(alone));
 }
+
+}  // namespace ranks_test

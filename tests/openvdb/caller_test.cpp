@@ -19,6 +19,8 @@
 #include "helper_programs.hpp"
 #include "volumes.hpp"
 
+namespace caller_test {
+
 using namespace volume_testing;
 using Catch::Contains;
 using plexway::openvdb::read_level_set;
@@ -206,3 +208,5 @@ TEST_CASE("a pipe is refused at once") {
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   CHECK_THAT(complaint_of(pipe), Contains("no regular file"));
 }
+
+}  // namespace caller_test

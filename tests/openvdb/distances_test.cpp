@@ -9,6 +9,8 @@
 #include <plexway/tetgen/tetrahedralize.hpp>
 #endif
 
+namespace distances_test {
+
 using namespace volume_testing;
 using plexway::PointSource;
 
@@ -82,3 +84,5 @@ TEST_CASE("distances agree with those in the solid that TetGen makes of the same
   }
 }
 #endif
+
+}  // namespace distances_test

@@ -10,6 +10,8 @@
 
 #include "volumes.hpp"
 
+namespace field_test {
+
 using namespace volume_testing;
 
 namespace {
@@ -186,3 +188,5 @@ TEST_CASE("a needle along a diagonal costs its voxels and not its box") {
   CHECK(active < 60000);
   CHECK(took.count() < 20);
 }
+
+}  // namespace field_test

@@ -9,6 +9,8 @@
 
 #include "volumes.hpp"
 
+namespace files_test {
+
 using namespace volume_testing;
 using Catch::Contains;
 using plexway::openvdb::read_level_set;
@@ -218,3 +220,5 @@ TEST_CASE("a level set we write is one to OpenVDB, and reads back with the same 
   CHECK_THROWS_AS(plexway::openvdb::write_level_set(folder.path() / "no" / "x.vdb", it),
                   plexway::Error);
 }
+
+}  // namespace files_test

@@ -2,6 +2,8 @@
 
 #include "volumes.hpp"
 
+namespace fill_test {
+
 using namespace volume_testing;
 using plexway::openvdb::fill;
 using plexway::openvdb::surface_of;
@@ -116,3 +118,5 @@ TEST_CASE("a spacing that cannot be is refused in the unit of positions") {
   CHECK_THAT(message_of<plexway::UsageError>([&] { (void)plexway::openvdb::fill(between, 100); }),
              Contains("as wide as the spacing 100; choose a smaller one"));
 }
+
+}  // namespace fill_test

@@ -9,6 +9,8 @@
 #include <plexway/tetgen/tetrahedralize.hpp>
 #endif
 
+namespace repair_test {
+
 using namespace volume_testing;
 using Catch::Contains;
 using plexway::openvdb::Repair;
@@ -264,3 +266,5 @@ TEST_CASE("the voxel that is chosen follows the surface's size and edges") {
           Approx(scale * scale * scale * ball_volume(1)).epsilon(0.03));
   }
 }
+
+}  // namespace repair_test

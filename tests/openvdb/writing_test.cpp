@@ -11,6 +11,8 @@
 
 #include "volumes.hpp"
 
+namespace writing_test {
+
 using namespace volume_testing;
 using Catch::Contains;
 using plexway::openvdb::read_level_set;
@@ -133,3 +135,5 @@ TEST_CASE("a level set goes straight into a device, and no file of another write
   CHECK(read_level_set(file).inside_voxels() == it.inside_voxels());
   CHECK(folder.files() == 2);
 }
+
+}  // namespace writing_test

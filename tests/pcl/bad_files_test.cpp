@@ -7,6 +7,8 @@
 
 #include "pcl/pcl_testing.hpp"
 
+namespace bad_files_test {
+
 using namespace pcl_testing;
 using Catch::Contains;
 using plexway::pcl::read_points;
@@ -187,3 +189,5 @@ TEST_CASE("PCL prints nothing, and its level of verbosity is put back") {
   CHECK(thrown);
   CHECK(std::filesystem::file_size(log) == 0);
 }
+
+}  // namespace bad_files_test

@@ -10,6 +10,8 @@
 
 #include "pcl/pcl_testing.hpp"
 
+namespace files_test {
+
 using namespace pcl_testing;
 using Catch::Contains;
 using plexway::pcl::FilePoints;
@@ -128,3 +130,5 @@ TEST_CASE("distances are an intensity that PCL reads") {
   std::filesystem::create_directory(folder.at("dir.pcd"));
   CHECK_THROWS_WITH(write_points(folder.at("dir.pcd"), points), Contains("Is a directory"));
 }
+
+}  // namespace files_test

@@ -14,6 +14,8 @@
 
 #include "pcl/pcl_testing.hpp"
 
+namespace filters_test {
+
 using namespace pcl_testing;
 using Catch::Contains;
 using plexway::pcl::estimate_normals;
@@ -146,3 +148,5 @@ TEST_CASE("a cloud of PCL in, distances back as its intensity") {
                   plexway::UsageError);
   CHECK_THROWS_AS(finite_points(pcl::PointCloud<pcl::PointXYZ>{}), plexway::InputError);
 }
+
+}  // namespace filters_test

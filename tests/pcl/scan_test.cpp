@@ -50,3 +50,5 @@ TEST_CASE("a program with a cloud of PCL: distances on a scanned ball are angles
   CHECK(most < 2e-2);
 }
 #endif
+
+namespace scan_test {}  // namespace scan_test

@@ -11,8 +11,7 @@
 #include "propagate/solving.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::accuracy_test {
 
 // PropagateOptions::accuracy, as solve takes it: what the windows_*_test measure of the engine is
 // not measured again.
@@ -179,3 +178,5 @@ TEST_CASE("windows are nowhere below the straight line, nor beyond a neighbour's
     }
   }
 }
+
+}  // namespace plexway::testing::accuracy_test

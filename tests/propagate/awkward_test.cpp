@@ -5,8 +5,7 @@
 #include "propagate/awkward_surfaces.hpp"
 #include "propagate/solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::awkward_test {
 
 namespace {
 
@@ -135,3 +134,5 @@ TEMPLATE_TEST_CASE("other components and unreferenced vertices are out of reach"
   check_reach<TestType>(s, b);
   check_reach<TestType>(s, lone);
 }
+
+}  // namespace plexway::testing::awkward_test

@@ -5,8 +5,7 @@
 #include "propagate/cone.hpp"
 #include "propagate/solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::closed_forms_test {
 
 namespace {
 
@@ -238,3 +237,5 @@ TEMPLATE_TEST_CASE("a ring of two triangles that share two edges", "", float, do
   CHECK(solve(mesh, PointSource::at(0))[1] == Approx(3));
   CHECK(solve(mesh, PointSource::at(1))[0] == Approx(3));
 }
+
+}  // namespace plexway::testing::closed_forms_test

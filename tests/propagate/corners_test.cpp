@@ -8,8 +8,7 @@
 #include "propagate/solving.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::corners_test {
 
 // Flat domains with corners, on grids so fine that most lines of sight pass a corner without
 // touching a triangle at it; the exact distances are those of a visibility graph.
@@ -89,3 +88,5 @@ TEST_CASE("teams know of corners as one thread does") {
     CHECK(s.errors.below >= -1e-4);
   }
 }
+
+}  // namespace plexway::testing::corners_test

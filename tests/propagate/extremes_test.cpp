@@ -17,8 +17,8 @@
 #include "propagate/workspace_state.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::extremes_test {
+
 using Catch::Contains;
 
 namespace {
@@ -254,3 +254,5 @@ TEST_CASE("labels that improve without end are given up, alone and by a team") {
   CHECK_THROWS_WITH(crew.run(gaining, front, 2), Contains("labels keep improving without end"));
   CHECK_NOTHROW(check_end(endless_after(1000), 1000));
 }
+
+}  // namespace plexway::testing::extremes_test

@@ -7,8 +7,7 @@
 #include "propagate/solving.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::flat_test {
 
 namespace {
 
@@ -136,3 +135,5 @@ TEMPLATE_TEST_CASE("a vertex at the end of a boundary edge from the source", "",
       CHECK(solve(surface.mesh<TestType>(), PointSource::at(0), options)[1] == Approx(1));
     }
 }
+
+}  // namespace plexway::testing::flat_test

@@ -7,8 +7,7 @@
 #include "propagate/solving.hpp"
 #include "propagate/visit_marks.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::front_test {
 
 namespace {
 
@@ -179,3 +178,5 @@ TEST_CASE("visit marks forget everything at a start, also when their numbers com
   marks.start();
   CHECK_FALSE(reached(9));
 }
+
+}  // namespace plexway::testing::front_test

@@ -3,8 +3,7 @@
 #include "propagate/solving.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::invariance_test {
 
 namespace {
 
@@ -247,3 +246,5 @@ TEMPLATE_TEST_CASE("never much longer than along edges, and a metric", "", float
     }
   }
 }
+
+}  // namespace plexway::testing::invariance_test

@@ -9,6 +9,8 @@
 
 #include "mixed_domains.hpp"
 
+namespace mixed_layers_test {
+
 // Solids whose speeds jump at faces: Snell's law and head waves, over several such faces.
 
 namespace {
@@ -201,3 +203,5 @@ TEST_CASE("three layers: a path crosses several faces") {
   }
   CHECK(mean < 5e-5);
 }
+
+}  // namespace mixed_layers_test

@@ -12,6 +12,8 @@
 #include "data/random_stacks.hpp"
 #include "fuzz/fuzz_pierced.hpp"
 
+namespace mixed_pierced_test {
+
 // Two speeds where something is cut out of both, and many in coarse slabs: bench_random_plans has
 // more of them.
 
@@ -145,3 +147,5 @@ TEST_CASE("sources that vertices of slabs are told are those of their distances"
   CHECK(low > -1e-9);
   CHECK(others <= 1);  // 30 of 2,400 before; one in 6,000 is left
 }
+
+}  // namespace mixed_pierced_test

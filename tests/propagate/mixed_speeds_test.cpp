@@ -6,6 +6,8 @@
 
 #include "mixed_domains.hpp"
 
+namespace mixed_speeds_test {
+
 // Pieces on which paths run at different speeds: Snell's law and head waves.
 
 namespace {
@@ -205,3 +207,5 @@ TEST_CASE("in single precision welds make corners and speeds refract as well") {
     }
   }
 }
+
+}  // namespace mixed_speeds_test

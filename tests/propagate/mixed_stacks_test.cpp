@@ -8,6 +8,8 @@
 
 #include "mixed_domains.hpp"
 
+namespace mixed_stacks_test {
+
 // Many layers of different speeds: a path crosses all of them.
 
 namespace {
@@ -142,3 +144,5 @@ TEST_CASE("ten layers that are not parallel") {
   CHECK(worst < 2e-2);
   CHECK(low > -1e-7);
 }
+
+}  // namespace mixed_stacks_test

@@ -8,6 +8,8 @@
 
 #include "mixed_domains.hpp"
 
+namespace mixed_test {
+
 namespace {
 
 using namespace mixed_domains;
@@ -310,3 +312,5 @@ TEST_CASE("what a mixed domain refuses") {
   CHECK(domain.weld(a, b, right) == 2);
   CHECK(plexway::solve(Serial{}, domain, PointSource::at(0)).distance[7] == Approx(std::sqrt(2.)));
 }
+
+}  // namespace mixed_test

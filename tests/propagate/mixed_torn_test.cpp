@@ -15,8 +15,7 @@
 #include "data/crack_plans.hpp"
 #include "propagate/simplex_obstacles.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::mixed_torn_test {
 
 namespace {
 
@@ -187,3 +186,5 @@ TEST_CASE("an arm of cracks in the face between two speeds is not seen through")
   CHECK(high < .03);
   CHECK(sum / count < 1e-4);
 }
+
+}  // namespace plexway::testing::mixed_torn_test

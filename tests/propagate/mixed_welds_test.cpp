@@ -10,6 +10,8 @@
 #include "data/corner_domains.hpp"
 #include "mixed_domains.hpp"
 
+namespace mixed_welds_test {
+
 // Corners that exist only once pieces are welded.
 
 namespace {
@@ -366,3 +368,5 @@ TEST_CASE("random boxes in a row, joined by windows, are never too near") {
   CAPTURE(all.worst);
   CHECK(all.mean < 5e-3);
 }
+
+}  // namespace mixed_welds_test

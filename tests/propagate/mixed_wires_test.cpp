@@ -11,6 +11,8 @@
 
 #include "mixed_domains.hpp"
 
+namespace mixed_wires_test {
+
 // Many wires in a solid.
 
 namespace {
@@ -110,3 +112,5 @@ TEST_CASE("wires in a solid cost few expansions that repeat one") {
     CHECK(field.statistics.reached_simplices > 0);
   }
 }
+
+}  // namespace mixed_wires_test

@@ -7,8 +7,7 @@
 #include "propagate/probe.hpp"
 #include "propagate/solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::probe_test {
 
 namespace {
 
@@ -76,3 +75,5 @@ TEST_CASE("a table is data of a solve") {
   tuned.probe.share[3] = std::nan("");
   CHECK_THROWS_AS(solve(mesh, PointSource::at(5), tuned), UsageError);
 }
+
+}  // namespace plexway::testing::probe_test

@@ -9,8 +9,7 @@
 #include "propagate/solving.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::repairs_test {
 
 // What is cheap to see of a field, and always wrong: a distance below the straight line through
 // space, and a vertex farther than a neighbour and the edge between.
@@ -155,3 +154,5 @@ TEST_CASE("lengths alone know no straight line, and good fields need no repair")
   CHECK(field.statistics.raised_vertices == 0);
   CHECK(field.statistics.lowered_vertices == 0);
 }
+
+}  // namespace plexway::testing::repairs_test

@@ -2,8 +2,7 @@
 
 #include "propagate/simplex_testing.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::simplex_bent_test {
 
 namespace {
 
@@ -121,3 +120,5 @@ TEMPLATE_TEST_CASE("a power of two scales a simplicial field exactly", "", float
   for (double& x : d) x *= 0x1p-30;
   CHECK(d == solve(SimplicialComplex<TestType, 3>(positions, 3, simplices), PointSource::at(5)));
 }
+
+}  // namespace plexway::testing::simplex_bent_test

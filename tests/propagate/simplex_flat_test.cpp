@@ -2,8 +2,7 @@
 
 #include "propagate/simplex_testing.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::simplex_flat_test {
 
 namespace {
 
@@ -165,3 +164,5 @@ TEMPLATE_TEST_CASE("simplices without volume carry distances on", "", float, dou
   CHECK(e.fits);
   CHECK(e.max < rounding<TestType>);
 }
+
+}  // namespace plexway::testing::simplex_flat_test

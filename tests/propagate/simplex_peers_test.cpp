@@ -5,8 +5,7 @@
 
 #include "propagate/simplex_testing.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::simplex_peers_test {
 
 namespace {
 
@@ -119,3 +118,5 @@ TEST_CASE("two dimensions agree with the plain rule of surfaces") {
         }
       }
 }
+
+}  // namespace plexway::testing::simplex_peers_test

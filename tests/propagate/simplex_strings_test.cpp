@@ -6,8 +6,7 @@
 
 #include "propagate/simplex_obstacles.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::simplex_strings_test {
 
 namespace {
 
@@ -349,3 +348,5 @@ TEMPLATE_TEST_CASE("the plain step stays a choice", "", float, double) {
   CHECK(compare(solve(domain, PointSource::at(source), plain), exact).mean > 1e-4);
   CHECK(compare(solve(domain, PointSource::at(source)), exact).mean < 1e-6);
 }
+
+}  // namespace plexway::testing::simplex_strings_test

@@ -8,8 +8,7 @@
 #include "propagate/simplex_obstacles.hpp"
 #include "propagate/simplex_string_rule.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::simplex_walks_test {
 
 namespace {
 
@@ -135,3 +134,5 @@ TEST_CASE("strings that need too much are rare") {
   CHECK(w.offers > 10000);
   CHECK(w.ended < w.offers / 100);
 }
+
+}  // namespace plexway::testing::simplex_walks_test

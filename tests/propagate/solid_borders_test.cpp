@@ -14,7 +14,7 @@
 #include <plexway/propagate/workspace.hpp>
 #include <plexway/solve.hpp>
 
-using namespace plexway;
+namespace plexway::solid_borders_test {
 
 TEST_CASE("several sources in a cube: straight lines, whoever works") {
   std::mt19937 random(5);
@@ -59,3 +59,5 @@ TEST_CASE("several sources in a cube: straight lines, whoever works") {
     }
   }
 }
+
+}  // namespace plexway::solid_borders_test

@@ -16,8 +16,7 @@
 #include "propagate/cracked_solid.hpp"
 #include "propagate/solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::solid_crack_test {
 
 namespace {
 
@@ -218,3 +217,5 @@ TEST_CASE("away from its crack a cracked solid takes sources at walls and notche
     }
   }
 }
+
+}  // namespace plexway::testing::solid_crack_test

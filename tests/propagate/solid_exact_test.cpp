@@ -6,8 +6,7 @@
 #include "propagate/solid_closed_forms.hpp"
 #include "propagate/solid_solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::solid_exact_test {
 
 TEST_CASE("a convex solid is exact") {
   for (const double jitter : {0.0, 0.2}) {
@@ -160,3 +159,5 @@ TEMPLATE_TEST_CASE("grids given by lengths alone are exact", "", float, double) 
       }
     }
 }
+
+}  // namespace plexway::testing::solid_exact_test

@@ -5,8 +5,7 @@
 
 #include "propagate/solid_solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::solid_invariance_test {
 
 TEMPLATE_TEST_CASE("solids: scale and place do not matter", "", float, double) {
   const Solid s = l_shape(6);
@@ -89,3 +88,5 @@ TEST_CASE("solids: tetrahedra without volume keep between the straight line and 
       }
     }
 }
+
+}  // namespace plexway::testing::solid_invariance_test

@@ -13,8 +13,7 @@
 #include "data/crack_plans.hpp"
 #include "propagate/solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::solid_joined_cracks_test {
 
 namespace {
 
@@ -109,3 +108,5 @@ TEST_CASE("paths around cracks that end at corners of holes") {
   CHECK(all.in_planes > 30);
   CHECK(all.sum / static_cast<double>(all.fields) <= 1e-5);
 }
+
+}  // namespace plexway::testing::solid_joined_cracks_test

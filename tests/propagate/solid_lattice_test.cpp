@@ -12,9 +12,10 @@
 
 #include "complex/test_solids.hpp"
 
+namespace plexway::solid_lattice_test {
+
 namespace {
 
-using namespace plexway;
 using plexway::testing::uniform;
 
 class Lattice {
@@ -137,3 +138,5 @@ TEMPLATE_TEST_CASE("lines that went through cells that are left out", "", float,
   CHECK(wrong.through == 0);
   CHECK(wrong.hidden > 800);
 }
+
+}  // namespace plexway::solid_lattice_test

@@ -16,9 +16,10 @@
 #include "propagate/solid_rule.hpp"
 #include "propagate/solid_truth.hpp"
 
+namespace plexway::solid_obstacles_test {
+
 namespace {
 
-using namespace plexway;
 using plexway::testing::NoFront;
 using plexway::testing::point_in;
 using plexway::testing::Solid;
@@ -137,3 +138,5 @@ TEST_CASE("no line is known to be free through cracks that fold, or from a block
       CHECK(most_short < 1e-6);
     }
 }
+
+}  // namespace plexway::solid_obstacles_test

@@ -6,7 +6,7 @@
 
 #include <plexway/solve.hpp>
 
-using namespace plexway;
+namespace plexway::solid_sources_test {
 
 namespace {
 
@@ -66,3 +66,5 @@ TEMPLATE_TEST_CASE("a stray vertex costs the others no digits", "", float, doubl
   CHECK(field.distance[2] == Approx(std::sqrt(2.)).epsilon(1e-6));
   CHECK(field.distance[4] == std::numeric_limits<TestType>::infinity());
 }
+
+}  // namespace plexway::solid_sources_test

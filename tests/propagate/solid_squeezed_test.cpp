@@ -14,8 +14,7 @@
 #include "data/corner_domains.hpp"
 #include "propagate/solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::solid_squeezed_test {
 
 namespace {
 
@@ -169,3 +168,5 @@ TEST_CASE("a path along the floor that touches one obstacle and bends at another
     CHECK(e.below >= -1e-12);
   }
 }
+
+}  // namespace plexway::testing::solid_squeezed_test

@@ -5,8 +5,7 @@
 #include "propagate/solid_solving.hpp"
 #include "propagate/solid_truth.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::solid_truth_test {
 
 namespace {
 
@@ -68,3 +67,5 @@ TEST_CASE("plain steps on solids with exact answers") {
   CHECK(bound.below > -1e-9);
   CHECK(bound.mean < 7e-2);
 }
+
+}  // namespace plexway::testing::solid_truth_test

@@ -13,9 +13,10 @@
 #include "propagate/solid_lines.hpp"
 #include "propagate/solid_rule.hpp"
 
+namespace plexway::solid_walk_test {
+
 namespace {
 
-using namespace plexway;
 using plexway::testing::NoFront;
 using plexway::testing::point_in;
 using plexway::testing::Solid;
@@ -132,3 +133,5 @@ TEST_CASE("a line that starts outside of its tetrahedron does not go round for e
     (void)rule.walk(t, from, point_in(mesh, plexway::testing::below(random, tets), random));
   }
 }
+
+}  // namespace plexway::solid_walk_test

@@ -7,8 +7,8 @@
 #include "exact_data.hpp"
 #include "propagate/solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::truth_test {
+
 namespace fs = std::filesystem;
 
 // Real meshes with exact distances.
@@ -109,3 +109,5 @@ TEMPLATE_TEST_CASE("awkward surfaces: finite where a path leads, close where it 
     }
   }
 }
+
+}  // namespace plexway::testing::truth_test

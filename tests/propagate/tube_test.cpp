@@ -5,8 +5,7 @@
 #include "data/tuning_shapes.hpp"
 #include "propagate/solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::tube_test {
 
 // A spring of five turns about the z axis: its tube of radius 0.12 winds about a circle of radius
 // 1, 260 rings of 8 vertices. No point of it is nearer to the axis than `inside`, so a path that
@@ -34,3 +33,5 @@ TEMPLATE_TEST_CASE("no distance along a tube that winds is shorter than its insi
     CHECK(worst >= -0.02);
   }
 }
+
+}  // namespace plexway::testing::tube_test

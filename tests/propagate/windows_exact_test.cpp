@@ -9,8 +9,7 @@
 #include "propagate/unfolded_lines.hpp"
 #include "propagate/windows_solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::windows_exact_test {
 
 namespace {
 
@@ -207,3 +206,5 @@ TEST_CASE("exact windows: gluings that no positions have") {
     CHECK(solve_windows(ring, {PointSource::at(0)}, Accuracy::exact())[1] == Approx(3));
   }
 }
+
+}  // namespace plexway::testing::windows_exact_test

@@ -6,8 +6,7 @@
 #include "data/long_strips.hpp"
 #include "propagate/windows_solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::windows_far_test {
 
 namespace {
 
@@ -45,3 +44,5 @@ TEMPLATE_TEST_CASE("merged windows: strips very many edges long", "", float, dou
     CHECK(flat.mean <= 1e-7);
   }
 }
+
+}  // namespace plexway::testing::windows_far_test

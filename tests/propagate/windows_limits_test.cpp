@@ -5,8 +5,7 @@
 #include "propagate/awkward_surfaces.hpp"
 #include "propagate/windows_solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::windows_limits_test {
 
 namespace {
 
@@ -145,3 +144,5 @@ TEMPLATE_TEST_CASE("windows: a callback sees them go and may stop them", "", flo
     CHECK(field.distance.back() == Approx(std::sqrt(2.)).epsilon(1e-3));
   }
 }
+
+}  // namespace plexway::testing::windows_limits_test

@@ -8,8 +8,7 @@
 #include "data/corner_domains.hpp"
 #include "propagate/windows_solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::windows_merged_test {
 
 namespace {
 
@@ -378,3 +377,5 @@ TEMPLATE_TEST_CASE("windows: points that all but lie at a vertex", "", float, do
       }
     }
 }
+
+}  // namespace plexway::testing::windows_merged_test

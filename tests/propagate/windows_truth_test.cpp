@@ -7,8 +7,8 @@
 #include "exact_data.hpp"
 #include "propagate/windows_solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::windows_truth_test {
+
 namespace fs = std::filesystem;
 
 // Real meshes with exact distances.
@@ -63,3 +63,5 @@ TEST_CASE("windows on real surfaces: exact is exact, accurate is accurate") {
   CHECK((means[4] + means[5]) / 2 <= 7e-5);
 #endif
 }
+
+}  // namespace plexway::testing::windows_truth_test

@@ -9,9 +9,9 @@
 #include "data/shapes.hpp"
 #include "propagate/windows/waiting_table.hpp"
 
-namespace {
+namespace plexway::windows_waiting_test {
 
-using namespace plexway;
+namespace {
 
 struct Block {
   Index place, link;
@@ -77,3 +77,5 @@ TEMPLATE_TEST_CASE("merged windows hold few bytes a vertex", "[windows]", float,
   CHECK(bytes < (sizeof(TestType) == 4 ? 36 : 48));
   CHECK(2 * workspace.bytes() < 3 * first);
 }
+
+}  // namespace plexway::windows_waiting_test

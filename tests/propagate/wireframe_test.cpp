@@ -6,8 +6,7 @@
 #include "complex/test_wires.hpp"
 #include "propagate/solving.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::wireframe_test {
 
 namespace {
 
@@ -294,3 +293,5 @@ TEST_CASE("wireframe: sources and options that make no sense") {
   refused(PointSource::at(0), no_radius);
   CHECK_THROWS_AS(solve(Serial{}, w, std::span<const PointSource>()), UsageError);
 }
+
+}  // namespace plexway::testing::wireframe_test

@@ -7,6 +7,8 @@
 
 #include "render/drawing.hpp"
 
+namespace golden_test {
+
 using namespace render_testing;
 
 namespace {
@@ -167,3 +169,5 @@ TEST_CASE("golden: cells, dots, and a mixed domain") {
   scene.parts = {organ, vessel};
   compare("mixed", scene);
 }
+
+}  // namespace golden_test

@@ -8,6 +8,8 @@
 #include "render/palette.hpp"
 #include "render/stroke_font.hpp"
 
+namespace parts_test {
+
 using namespace render_testing;
 
 TEST_CASE("ticks are round, inside, and written as short as they can be") {
@@ -92,3 +94,5 @@ TEST_CASE("few colours are near those that they stand for") {
       squares += std::pow(indexed.palette[indexed.index[k]][c] - image.pixels[k][c], 2);
   CHECK(std::sqrt(squares / double(image.pixels.size())) < 5);
 }
+
+}  // namespace parts_test

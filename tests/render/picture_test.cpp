@@ -3,6 +3,8 @@
 #include "io/colour_map.hpp"
 #include "render/drawing.hpp"
 
+namespace picture_test {
+
 using namespace render_testing;
 
 namespace {
@@ -377,3 +379,5 @@ TEST_CASE("pictures that make no sense are refused") {
   scene.parts = {cloud};
   refused(options);
 }
+
+}  // namespace picture_test

@@ -7,6 +7,8 @@
 #include "render/drawing.hpp"
 #include "render/spacings.hpp"
 
+namespace robust_test {
+
 using namespace render_testing;
 
 namespace {
@@ -107,3 +109,5 @@ TEST_CASE("cells of values that are no distances have values nevertheless") {
       }
     }
 }
+
+}  // namespace robust_test

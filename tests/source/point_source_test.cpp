@@ -3,8 +3,7 @@
 #include "propagate/solving.hpp"
 #include "with_accuracy.hpp"
 
-using namespace plexway;
-using namespace plexway::testing;
+namespace plexway::testing::point_source_test {
 
 namespace {
 
@@ -244,3 +243,5 @@ TEST_CASE("the same source twice: the first is named") {
   CHECK(field.label[7] == 0);
   CHECK(plexway::solve(Serial{}, mesh, PointSource::at(7)).label.empty());
 }
+
+}  // namespace plexway::testing::point_source_test

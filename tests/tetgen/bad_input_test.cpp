@@ -5,6 +5,8 @@
 
 #include "tetgen/solids.hpp"
 
+namespace bad_input_test {
+
 using namespace tetgen_testing;
 
 namespace {
@@ -128,3 +130,5 @@ TEST_CASE("TetGen can be watched and stopped") {
   const auto fails = [](double) -> bool { throw plexway::UsageError("enough"); };
   CHECK_THROWS_AS(fill(cube(), {.max_volume = 1e-8, .go_on = fails}), plexway::UsageError);
 }
+
+}  // namespace bad_input_test

@@ -5,6 +5,8 @@
 
 #include "bench/solid_domains.hpp"
 
+namespace convergence_test {
+
 namespace {
 
 double mean_error(const bench::SolidDomain& domain) {
@@ -54,3 +56,5 @@ TEST_CASE("around a ball errors fall with the size of tetrahedra") {
   CHECK(coarse < 4e-4);
   CHECK(fine < coarse / 2.5);
 }
+
+}  // namespace convergence_test

@@ -10,6 +10,8 @@
 #include "helper_programs.hpp"
 #include "tetgen/solids.hpp"
 
+namespace helper_test {
+
 using namespace tetgen_testing;
 using Catch::Contains;
 
@@ -58,3 +60,5 @@ TEST_CASE("the surface is not blamed for a helper that was killed or is not ther
   }
   CHECK_FALSE(fill(cube()).tets.empty());
 }
+
+}  // namespace helper_test

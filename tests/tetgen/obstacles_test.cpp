@@ -3,6 +3,8 @@
 
 #include "bench/solid_domains.hpp"
 
+namespace obstacles_test {
+
 // Distances around obstacles whose edges are not parallel, in a cube of tetrahedra, against ways
 // around them by brute force.
 
@@ -71,3 +73,5 @@ TEST_CASE("around obstacles at random") {
     compare<double>(obstacles, 25e3, 2);
   }
 }
+
+}  // namespace obstacles_test

@@ -4,6 +4,8 @@
 #include "io/io_testing.hpp"
 #include "tetgen/solids.hpp"
 
+namespace poly_file_test {
+
 using namespace tetgen_testing;
 using io_testing::Folder;
 using plexway::tetgen::read_poly;
@@ -167,3 +169,5 @@ TEST_CASE("complexes that make no sense are refused") {
   complex.facets = {{.polygons = {{0, 1, 2}}, .holes = {}}};
   CHECK(complaint([&] { (void)tetrahedralize(complex); }) != "no complaint");
 }
+
+}  // namespace poly_file_test

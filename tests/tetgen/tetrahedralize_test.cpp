@@ -12,6 +12,8 @@
 #include "io/io_testing.hpp"
 #include "tetgen/solids.hpp"
 
+namespace tetrahedralize_test {
+
 using namespace tetgen_testing;
 
 namespace {
@@ -181,3 +183,5 @@ TEST_CASE("filling is silent and gives the same again") {
   CHECK(once.positions == again.positions);
   CHECK(once.tets == again.tets);
 }
+
+}  // namespace tetrahedralize_test
