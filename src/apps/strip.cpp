@@ -77,7 +77,8 @@ std::optional<std::array<double, 3>> beyond(const Crossing& c, const std::array<
   return there;
 }
 
-/// Where the segment passes a portal, 0 at its left end.
+/// Where the segment passes a portal, 0 at its left end. As near to an end as rounding leaves it,
+/// it passes there: the edges of a vertex that it goes through are then crossed at one point.
 double passing(const Portal& portal, const Vector2& a, const Vector2& b) {
   const Vector2 d = b - a;
   const double left = cross(d, portal.left - a), right = -cross(d, portal.right - a);
@@ -88,7 +89,9 @@ double passing(const Portal& portal, const Vector2& a, const Vector2& b) {
     const double w2 = dot(w, w);
     return w2 > 0 ? std::clamp(dot(a - portal.left, w) / w2, 0., 1.) : 0.;
   }
-  return std::clamp(left / sum, 0., 1.);
+  constexpr double rounding = 1e-12;
+  const double at = left / sum;
+  return at < rounding ? 0 : at > 1 - rounding ? 1 : at;
 }
 
 }  // namespace
