@@ -323,15 +323,16 @@ std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
       const auto [f, from] = middle(*domain_, delaunay_, face);
       const auto to = read_out.towards(f, from);
       if (!to) continue;
-      const StraightPiece line =
-          delaunay_ == nullptr ? StraightPiece{f, from, *to}
-                               : laid_on(*given_, *delaunay_, *domain_, {f, from, *to}).front();
+      std::vector<StraightPiece> lines = {{f, from, *to}};
+      if (delaunay_ != nullptr) lines = laid_on(*given_, *delaunay_, *domain_, lines[0]);
+      const Index own = given_->inside_face(face).first;
       std::array<double, 3>& way = directions[face];
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Index v = given_->triangles()[line.face].corner[i];
-        for (std::size_t k = 0; k < 3; ++k)
-          way[k] += (line.from[i] - line.to[i]) * positions_[given_outer()[v]][k];
-      }
+      for (const StraightPiece& line : lines)
+        for (std::size_t i = 0; i < 3 && line.face == own; ++i) {
+          const Index v = given_outer()[given_->triangles()[own].corner[i]];
+          for (std::size_t k = 0; k < 3; ++k)
+            way[k] += (line.from[i] - line.to[i]) * positions_[v][k];
+        }
       const double length = std::hypot(way[0], way[1], way[2]);
       for (double& x : way) x = length > 0 ? x / length : 0;
     }

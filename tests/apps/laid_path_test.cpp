@@ -29,14 +29,14 @@ struct Laid {
         field(mesh, delaunay, input, s.positions) {}
 };
 
-/// A hilly grid of narrow cells, each cut along one of its diagonals, so that flips are due: some
-/// with holes, whose corners may touch in a vertex alone.
+/// A hilly grid of narrow, slanting cells, each cut along one of its diagonals, so that flips are
+/// due: some with holes, whose corners may touch in a vertex alone.
 Surface hills(std::mt19937& random, double height, double left_out) {
   const Index nx = 3 + below(random, 8), ny = 3 + below(random, 8);
-  const double narrow = std::exp(-2 * uniform(random));
+  const double narrow = std::exp(-2 * uniform(random)), shear = .5 * uniform(random);
   Surface s;
   for (Index i = 0; i < nx; ++i)
-    for (Index k = 0; k < ny; ++k) s.add(narrow * i, k, height * uniform(random));
+    for (Index k = 0; k < ny; ++k) s.add(narrow * i, k + shear * i, height * uniform(random));
   for (Index i = 0; i + 1 < nx; ++i)
     for (Index k = 0; k + 1 < ny; ++k) {
       const Index a = i * ny + k, b = a + 1, c = a + ny, d = c + 1;
@@ -146,12 +146,12 @@ TEST_CASE("a path over flipped triangles is as long as its distance") {
   // A strip that is folded along its short diagonals.
   Surface s;
   for (int i = 0; i < 4; ++i)
-    for (int k = 0; k < 3; ++k) s.add(.2 * i, k, (i + 2 * k) % 3 * .4);
+    for (int k = 0; k < 3; ++k) s.add(.2 * i, k, (2 * i + k) % 3 * .4);
   for (Index i = 0; i < 3; ++i)
     for (Index k = 0; k < 2; ++k) {
       const Index a = 3 * i + k;
-      s.triangle(a, a + 4, a + 1);
-      s.triangle(a, a + 3, a + 4);
+      s.triangle(a, a + 3, a + 1);
+      s.triangle(a + 1, a + 3, a + 4);
     }
   Laid<double> laid(s);
   REQUIRE(laid.delaunay.summary().flips > 0);
@@ -187,35 +187,56 @@ TEST_CASE("paths are as long as distances on 500 flipped surfaces, by the estima
   CHECK(static_cast<double>(all.beyond) <= .03 * static_cast<double>(all.paths));
 }
 
-TEST_CASE("paths after labels on flipped surfaces lie there and are about as long as distances") {
-  const Difference all = compare<float>(Accuracy::fast(), {});
-  CAPTURE(all.longer, all.shorter);
-  CHECK(all.longer <= .15);
-  CHECK(all.shorter <= .3);
+TEST_CASE("paths after labels on flipped surfaces lie there and are hardly longer than need be") {
+  double mean = 0;
+  std::size_t paths = 0;
+  for (unsigned k = 0; k < 200; ++k) {
+    std::mt19937 random(k);
+    const Surface s = hills(random, uniform(random), k % 4 == 3 ? .15 : 0);
+    const PointSource source = PointSource::at(s.faces[0][0]);
+    Laid<float> laid(s);
+    Laid<double> exact(s);
+    laid.field.solve(Serial{}, source, by_labels());
+    exact.field.solve(Serial{}, source, at(Accuracy::exact()));
+    for (int t = 0; t < 8; ++t) {
+      const PointSource target = anywhere(s.faces, random);
+      const double least = exact.field.at(target);
+      const Path path = laid.field.trace(target);
+      CAPTURE(k, t, least);
+      REQUIRE((path.source == none) == std::isinf(least));
+      if (path.source == none) continue;
+      check_path(path, s.positions, s.faces);
+      CHECK(path.length >= least * (1 - 1e-12));
+      CHECK(path.length <= least * 1.03);
+      mean += path.length / least - 1;
+      ++paths;
+    }
+  }
+  CHECK(mean <= 1e-4 * static_cast<double>(paths));
 }
 
 TEMPLATE_TEST_CASE("a path over a flat grid crosses each edge once", "", float, double) {
-  for (const bool narrow : {false, true}) {
+  for (const bool sheared : {false, true}) {
     std::mt19937 random(5);
     Surface s;
     std::vector<std::array<std::int64_t, 2>> places;
     const Index n = 13;
     for (Index i = 0; i < n; ++i)
       for (Index k = 0; k < n; ++k) {
-        s.add(narrow ? .25 * i : i, k);
+        s.add(i + (sheared ? k : 0.), k);
         places.push_back({i, k});
       }
     for (Index i = 0; i + 1 < n; ++i)
       for (Index k = 0; k + 1 < n; ++k) {
         const Index a = i * n + k, b = a + 1, c = a + n, d = c + 1;
-        const bool falls = narrow && uniform(random) < .5;
+        const bool falls = sheared && uniform(random) < .5;
         s.triangle(a, b, falls ? c : d);
         s.triangle(falls ? b : a, d, c);
       }
     Laid<TestType> laid(s);
-    REQUIRE((laid.delaunay.summary().flips > 0) == narrow);
+    REQUIRE((laid.delaunay.summary().flips > 0) == sheared);
     PathField direct(laid.input, s.positions);
-    CHECK(points_on_the_way(s, places, 0, n * n - 1) == 13);
+    if (!sheared) CHECK(points_on_the_way(s, places, 0, n * n - 1) == 13);
     for (int k = 0; k < 300; ++k) {
       const Index from = k == 0 ? 0 : below(random, s.positions.size());
       const Index to = k == 0 ? n * n - 1 : below(random, s.positions.size());
@@ -224,7 +245,7 @@ TEMPLATE_TEST_CASE("a path over a flat grid crosses each edge once", "", float, 
       for (auto* const field : {&laid.field, &direct}) {
         field->solve(Serial{}, PointSource::at(from), at(Accuracy::accurate()));
         const Path path = field->trace(to);
-        CAPTURE(narrow, from, to, field == &direct);
+        CAPTURE(sheared, from, to, field == &direct);
         CHECK(path.points.size() == points);
         CHECK(path.length == Approx(apart(s.positions[from], s.positions[to])).epsilon(1e-14));
       }
@@ -255,8 +276,10 @@ TEST_CASE("directions, distances inside and nearest sources are those of the inp
       const std::size_t nearest = to[1] < to[0];
       CAPTURE(f, accuracy.error());
       CHECK(laid.field.at(centre) == Approx(to[nearest]).epsilon(within));
-      if (std::abs(to[0] - to[1]) > within) CHECK(labels[f] == nearest);
-      if (std::abs(to[0] - to[1]) < within || to[nearest] < .05) continue;
+      const double apart_enough = accuracy == Accuracy::exact() ? 1e-9 : .3;
+      if (std::abs(to[0] - to[1]) < apart_enough) continue;
+      CHECK(labels[f] == nearest);
+      if (to[nearest] < .05) continue;
       double along = 0;
       for (std::size_t k = 0; k < 3; ++k)
         along += directions[f][k] * (p[k] - from[nearest][k]) / to[nearest];
