@@ -64,10 +64,10 @@ Cloud generate(const std::string& kind, std::size_t n) {
 
 /// Sampled at random; the noise is in spacings.
 Cloud sample(const std::string& kind, std::size_t n, double noise) {
-  samples::SampledCloud (*make)(std::size_t, double, std::uint64_t) = samples::plane_cloud;
-  if (kind == "sphere") make = samples::sphere_cloud;
-  if (kind == "cylinder") make = samples::cylinder_cloud;
-  if (kind == "swiss") make = samples::swiss_cloud;
+  samples::SampledCloud (*make)(std::size_t, double, std::uint64_t) = samples::sampled_plane;
+  if (kind == "sphere") make = samples::sampled_sphere;
+  if (kind == "cylinder") make = samples::sampled_cylinder;
+  if (kind == "swiss") make = samples::sampled_swiss;
   samples::SampledCloud made = make(n, noise, 1);
   std::array<char, 64> name{};
   std::snprintf(name.data(), name.size(), "%s %zu, noise %.2f", kind.c_str(), n, noise);

@@ -242,8 +242,9 @@ class Field:
             A vertex, a point in space (the closest of the domain is taken), or a `Point`.
         margin : float, optional
             On a surface or a cloud: the path is the shortest of all if nowhere near it the field is
-            too long by more than this share; 0.003 if not given. 0: not looked for, some ten times
-            faster, locally shortest. Refused on other domains.
+            too long by more than this share. If not given, 0.003 on clouds and after the accuracy
+            'fast'; else the path is the one that distances were found by. 0: not looked for, some
+            ten times faster, locally shortest. Refused on other domains.
 
         Returns
         -------

@@ -92,19 +92,18 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   std::shared_ptr<const AnyPathField::State> path_field(
       const AnyExecutor& executor, std::span<const PointSource> sources,
       const PropagateOptions& options) const override {
-    auto state = std::make_shared<PathsOf<TriangleMesh<Real>>>(
-        this->shared_from_this(), this->shape_, input(), this->measured_);
-    if (!elsewhere()) {
+    using Paths = PathsOf<TriangleMesh<Real>>;
+    const auto solved = [&](const std::shared_ptr<Paths>& state) {
       state->solve(executor, sources, options);
+      cut(as<DistanceField<Real>>(state->field.data), this->shape_.vertices());
+      state->field.triangulation = report_;
       return state;
-    }
-    AnyField field;
-    this->solve(executor, SourceList(sources), options, field);
-    state->adopt(executor, std::move(field), sources, options,
-                 {&made_.mesh, [this](const PointSource& point) {
-                    return made_.delaunay->to_intrinsic(point);
-                  }});
-    return state;
+    };
+    const auto keep = this->shared_from_this();
+    if (!elsewhere())
+      return solved(std::make_shared<Paths>(keep, this->shape_, this->measured_, made_.mesh));
+    return solved(std::make_shared<Paths>(keep, this->shape_, this->measured_, made_.mesh,
+                                          *made_.delaunay, input()));
   }
 
  private:

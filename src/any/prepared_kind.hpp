@@ -59,7 +59,7 @@ class PreparedKind : public Prepared {
       const AnyExecutor& executor, std::span<const PointSource> sources,
       const PropagateOptions& options) const override {
     if constexpr (Complex::kind != DomainKind::mixed && support(Purpose::paths, Complex::kind)) {
-      auto state = std::make_shared<PathsOf<Complex>>(shared_from_this(), shape_, of(), measured_);
+      auto state = std::make_shared<PathsOf<Complex>>(shared_from_this(), shape_, measured_, of());
       state->solve(executor, sources, options);
       return state;
     } else {

@@ -10,6 +10,7 @@
 #include <plexway/error.hpp>
 
 #include "apps/cell_trace.hpp"
+#include "apps/laid_path.hpp"
 #include "apps/solid_read_out.hpp"
 #include "apps/solid_trace.hpp"
 #include "apps/solved.hpp"
@@ -36,18 +37,12 @@ SourceDomain described(const Wireframe<Real>& wireframe) {
 }
 
 template <class Real>
-Path trace_in(const TriangleMesh<Real>& mesh, const Solved<Real>& solved, const PointSource& point,
-              const TraceOptions& options) {
-  return SurfaceTrace<Real>(mesh, solved).trace(point, options);
-}
-template <class Real>
-Path trace_in(const TetMesh<Real>& mesh, const Solved<Real>& solved, const PointSource& point,
-              const TraceOptions&) {
+Path trace_in(const TetMesh<Real>& mesh, const Solved<Real>& solved, const PointSource& point) {
   return trace_solid(mesh, solved, point);
 }
 template <class Real>
 Path trace_in(const Wireframe<Real>& wireframe, const Solved<Real>& solved,
-              const PointSource& point, const TraceOptions&) {
+              const PointSource& point) {
   return trace_wire(wireframe, solved, point);
 }
 
@@ -79,9 +74,7 @@ template <class Real>
 double distance_in(const TriangleMesh<Real>& mesh, const SurfaceReadOut<Real>& read_out,
                    const PointSource& at, ReadOut level) {
   const auto [f, turned] = mesh.inside_face(at.simplex);
-  std::array<double, 3> weight = {at.barycentric[0], at.barycentric[1], at.barycentric[2]};
-  if (turned) std::swap(weight[1], weight[2]);
-  return read_out.at(f, weight, level) * mesh.unit();
+  return read_out.at(f, inside(at.barycentric, turned), level) * mesh.unit();
 }
 template <class Real>
 double distance_in(const TetMesh<Real>& mesh, const SolidReadOut<Real>& read_out,
@@ -108,23 +101,74 @@ double distance_in(const Wireframe<Real>& wireframe, const WireReadOut<Real>& re
   return best;
 }
 
+template <class Real>
+double linear_in(const TriangleMesh<Real>& mesh, std::span<const Index> outer,
+                 std::span<const Real> distance, const PointSource& at) {
+  const auto [f, turned] = mesh.inside_face(at.simplex);
+  const std::array<double, 3> weight = inside(at.barycentric, turned);
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (weight[i] > 0)
+      sum += weight[i] * static_cast<double>(distance[outer[mesh.triangles()[f].corner[i]]]);
+  return sum;
+}
+
+/// The middle of a triangle of the input, as a point of one of `mesh`, not on its rim, where the
+/// way back is not told from others. Numbers inside.
+template <class Real>
+std::pair<Index, std::array<double, 3>> middle(const TriangleMesh<Real>& mesh,
+                                               const IntrinsicDelaunay* delaunay, Index simplex) {
+  constexpr double third = 1. / 3, least = 1e-6;
+  std::array<double, 3> at = {third, third, third};
+  Index face = simplex;
+  if (delaunay != nullptr) {
+    const PointSource there = delaunay->to_intrinsic(PointSource::in(simplex, at));
+    face = there.simplex;
+    for (std::size_t i = 0; i < 3; ++i) at[i] = least + (1 - 3 * least) * there.barycentric[i];
+  }
+  const auto [f, turned] = mesh.inside_face(face);
+  return {f, inside({at[0], at[1], at[2], 0}, turned)};
+}
+
+/// From vertices inside to the caller's.
+template <class Domain>
+std::vector<Index> vertices_outside(const Domain& domain) {
+  const std::span<const Index> inside = domain.vertices_inside();
+  std::vector<Index> outer(inside.size());
+  for (std::size_t v = 0; v < inside.size(); ++v) outer[inside[v]] = static_cast<Index>(v);
+  return outer;
+}
+
 }  // namespace
 
 template <template <class> class Domain, class Real>
 PathField<Domain<Real>>::PathField(const Domain<Real>& domain,
                                    std::span<const std::array<double, 3>> positions)
-    : domain_(&domain), positions_(positions) {
+    : PathField(domain, nullptr, domain, positions) {}
+
+template <template <class> class Domain, class Real>
+PathField<Domain<Real>>::PathField(
+    const Domain<Real>& domain, const IntrinsicDelaunay& delaunay, const Domain<Real>& input,
+    std::span<const std::array<double, 3>> positions) requires(Domain<Real>::kind ==
+                                                               DomainKind::surface)
+    : PathField(domain, &delaunay, input, positions) {}
+
+template <template <class> class Domain, class Real>
+PathField<Domain<Real>>::PathField(const Domain<Real>& domain, const IntrinsicDelaunay* delaunay,
+                                   const Domain<Real>& given,
+                                   std::span<const std::array<double, 3>> positions)
+    : domain_(&domain), given_(&given), delaunay_(delaunay), positions_(positions) {
   // Without one space around that lines are straight in.
   if constexpr (!std::is_same_v<Domain<Real>, Wireframe<Real>>)
-    if (domain.metric() ==
+    if (given.metric() ==
         (Domain<Real>::kind == DomainKind::solid ? MetricKind::intrinsic : MetricKind::refracting))
-      cells_ = std::make_shared<const ComplexCells<Real>>(domain);
-  const std::span<const Index> inside = domain.vertices_inside();
-  if (!positions.empty() && positions.size() != inside.size())
+      cells_ = std::make_shared<const ComplexCells<Real>>(given);
+  if (!positions.empty() && positions.size() != given.vertex_count())
     throw UsageError(std::to_string(positions.size()) + " positions for " +
-                     std::to_string(inside.size()) + " vertices: give one a vertex, or none");
-  outer_.resize(inside.size());
-  for (std::size_t v = 0; v < inside.size(); ++v) outer_[inside[v]] = static_cast<Index>(v);
+                     std::to_string(given.vertex_count()) +
+                     " vertices: give one a vertex, or none");
+  outer_ = vertices_outside(domain);
+  if (delaunay != nullptr) given_outer_ = vertices_outside(given);
   if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
     outer_simplices_.resize(domain.tet_count());
     for (Index t = 0; t < domain.tet_count(); ++t) outer_simplices_[domain.inside_tet(t).first] = t;
@@ -142,9 +186,22 @@ PathField<Domain<Real>>::PathField(const Domain<Real>& domain,
 }
 
 template <template <class> class Domain, class Real>
-void PathField<Domain<Real>>::took(std::span<const PointSource> sources, Visibility visibility,
-                                   Kept kept) {
+std::span<const PointSource> PathField<Domain<Real>>::take(std::span<const PointSource> sources) {
+  solved_ = false;
   sources_.assign(sources.begin(), sources.end());
+  if constexpr (Domain<Real>::kind == DomainKind::surface)
+    if (delaunay_ != nullptr) {
+      given_sources_ = sources_;
+      for (PointSource& source : sources_) {
+        check_source(source, described(*given_));
+        source = delaunay_->to_intrinsic(source);
+      }
+    }
+  return sources_;
+}
+
+template <template <class> class Domain, class Real>
+void PathField<Domain<Real>>::took(Visibility visibility, Kept kept) {
   visibility_ = visibility;
   kept_ = kept;
   if (cells_) cell_distance_ = cell_distances<Real>(*cells_, field_.distance);
@@ -159,7 +216,7 @@ Solved<Real> PathField<Domain<Real>>::solved() const {
   return {workspace_.state(),
           field_,
           sources_,
-          positions_,
+          delaunay_ ? std::span<const std::array<double, 3>>() : positions_,
           {},
           outer_,
           outer_simplices_,
@@ -173,9 +230,21 @@ Path PathField<Domain<Real>>::trace(const PointSource& point, const TraceOptions
   if (!solved_) throw UsageError("there is nothing to trace before a solve");
   const PointSource at = checked(point);
   check(options, *domain_);
-  if (cells_) return trace_cells({*cells_, cell_distance_, sources_, positions_}, at);
+  if (cells_) return trace_cells({*cells_, cell_distance_, given_sources(), positions_}, at);
   const Solved<Real> solved = this->solved();
-  return or_no_way_at_all(trace_in(*domain_, solved, at, options), solved, at);
+  const auto found = [&]() -> Path {
+    if constexpr (Domain<Real>::kind == DomainKind::surface) {
+      const SurfaceTrace<Real> trace(*domain_, solved);
+      if (delaunay_ == nullptr) return trace.trace(at, options);
+      const PulledWay way = trace.find(delaunay_->to_intrinsic(at), options);
+      if (way.source == none) return {};
+      return LaidPaths<Real>(*given_, *delaunay_, positions_, given_outer())
+          .lay(*domain_, way, at, given_sources_[way.source]);
+    } else {
+      return trace_in(*domain_, solved, at);
+    }
+  };
+  return or_no_way_at_all(found(), solved, at);
 }
 
 // What left no labels counts as GL, which does not either. A solid has positions of its own.
@@ -191,7 +260,7 @@ template <template <class> class Domain, class Real>
 PointSource PathField<Domain<Real>>::checked(const PointSource& point) const {
   PointSource at = point;
   at.offset = 0;
-  check_source(at, described(*domain_));
+  check_source(at, described(*given_));
   return at;
 }
 
@@ -210,11 +279,25 @@ std::vector<double> PathField<Domain<Real>>::at(std::span<const PointSource> poi
   std::vector<double> distance;
   distance.reserve(points.size());
   for (const PointSource& point : points) {
-    const PointSource at = checked(point);
-    distance.push_back(at.vertex != none ? static_cast<double>(field_.distance[at.vertex])
-                       : cells_
-                           ? read_cells({*cells_, cell_distance_, sources_, positions_}, at, level)
-                           : distance_in(*domain_, read_out, at, level));
+    PointSource at = checked(point);
+    if (at.vertex != none) {
+      distance.push_back(static_cast<double>(field_.distance[at.vertex]));
+      continue;
+    }
+    if (cells_) {
+      distance.push_back(
+          read_cells({*cells_, cell_distance_, given_sources(), positions_}, at, level));
+      continue;
+    }
+    if constexpr (Domain<Real>::kind == DomainKind::surface) {
+      if (level == ReadOut::linear) {
+        distance.push_back(
+            linear_in(*given_, given_outer(), std::span<const Real>(field_.distance), at));
+        continue;
+      }
+      if (delaunay_ != nullptr) at = delaunay_->to_intrinsic(at);
+    }
+    distance.push_back(distance_in(*domain_, read_out, at, level));
   }
   return distance;
 }
@@ -235,25 +318,23 @@ std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
   if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
     const Solved<Real> solved = this->solved();
     const SurfaceReadOut<Real> read_out(*domain_, solved);
-    directions.assign(domain_->face_count(), {0, 0, 0});
-    for (Index face = 0; face < domain_->face_count(); ++face) {
-      const Index f = domain_->inside_face(face).first;
-      if (!solved.windows && !workspace_.state().marks.reached(f)) continue;
-      const std::array<double, 2> along = read_out.gradient(f);
-      Vector3<double> corner[3];
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto& p = positions_[outer_[domain_->triangles()[f].corner[i]]];
-        corner[i] = {p[0], p[1], p[2]};
-      }
-      const Vector3<double> edge = corner[1] - corner[0];
-      const double length = norm(edge);
-      if (!(length > 0)) continue;
-      const Vector3<double> u = (1 / length) * edge, side = corner[2] - corner[0];
-      const Vector3<double> off = side - dot(side, u) * u;
-      const double height = norm(off);
-      const Vector3<double> w = height > 0 ? (1 / height) * off : Vector3<double>{0, 0, 0};
-      const Vector3<double> d = along[0] * u + along[1] * w;
-      directions[face] = {d.x, d.y, d.z};
+    directions.assign(given_->face_count(), {0, 0, 0});
+    for (Index face = 0; face < given_->face_count(); ++face) {
+      const auto [f, from] = middle(*domain_, delaunay_, face);
+      const auto to = read_out.towards(f, from);
+      if (!to) continue;
+      std::vector<StraightPiece> lines = {{f, from, *to}};
+      if (delaunay_ != nullptr) lines = laid_on(*given_, *delaunay_, *domain_, lines[0]);
+      const Index own = given_->inside_face(face).first;
+      std::array<double, 3>& way = directions[face];
+      for (const StraightPiece& line : lines)
+        for (std::size_t i = 0; i < 3 && line.face == own; ++i) {
+          const Index v = given_outer()[given_->triangles()[own].corner[i]];
+          for (std::size_t k = 0; k < 3; ++k)
+            way[k] += (line.from[i] - line.to[i]) * positions_[v][k];
+        }
+      const double length = std::hypot(way[0], way[1], way[2]);
+      for (double& x : way) x = length > 0 ? x / length : 0;
     }
   }
   return directions;
@@ -271,13 +352,13 @@ std::vector<Index> PathField<Domain<Real>>::simplex_labels() const {
   };
   if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
     const Solved<Real> solved = this->solved();
-    for (Index f = 0; f < domain_->face_count(); ++f) {
-      const Index inside = domain_->inside_face(f).first;
+    const WindowReadOut<Real> windows(*domain_, solved);
+    for (Index face = 0; face < given_->face_count(); ++face) {
+      const auto [f, at] = middle(*domain_, delaunay_, face);
       if (solved.windows)
-        labels.push_back(
-            WindowReadOut<Real>(*domain_, solved).look(inside, {1. / 3, 1. / 3, 1. / 3}).source);
+        labels.push_back(windows.look(f, at).source);
       else
-        take(inside);
+        take(f);
     }
   } else if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
     for (Index t = 0; t < domain_->tet_count(); ++t) take(domain_->inside_tet(t).first);

@@ -1,6 +1,7 @@
 #include "apps/strip.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <optional>
 
@@ -77,18 +78,20 @@ std::optional<std::array<double, 3>> beyond(const Crossing& c, const std::array<
   return there;
 }
 
-/// Where the segment passes a portal, 0 at its left end.
+/// Where the segment passes a portal, 0 at its left end. As near to an end as rounding leaves it, it
+/// passes there: the edges of a vertex that it goes through are then crossed at one point.
 double passing(const Portal& portal, const Vector2& a, const Vector2& b) {
-  const Vector2 d = b - a;
+  constexpr double rounding = 1e-12;
+  const Vector2 d = b - a, w = portal.right - portal.left;
   const double left = cross(d, portal.left - a), right = -cross(d, portal.right - a);
   const double sum = left + right;
-  if (!(sum > 0)) {
-    // It runs along the edge, or has no length.
-    const Vector2 w = portal.right - portal.left;
+  if (!(std::max(std::abs(left), std::abs(right)) > rounding * norm(d) * norm(w)) || !(sum > 0)) {
+    // It runs along the edge, or has no length: where it comes to it.
     const double w2 = dot(w, w);
     return w2 > 0 ? std::clamp(dot(a - portal.left, w) / w2, 0., 1.) : 0.;
   }
-  return std::clamp(left / sum, 0., 1.);
+  const double at = left / sum;
+  return at < rounding ? 0 : at > 1 - rounding ? 1 : at;
 }
 
 }  // namespace

@@ -12,8 +12,7 @@ namespace {}  // namespace
 
 /// A triangle with the edge (v, w), and the direction of w at v.
 template <class Real>
-std::optional<typename SurfaceTrace<Real>::Heading> SurfaceTrace<Real>::side(Index v,
-                                                                             Index w) const {
+std::optional<Heading> SurfaceTrace<Real>::side(Index v, Index w) const {
   std::vector<Index> corners;
   mesh_.corners_at(v, corners);
   std::optional<Heading> found;
@@ -32,28 +31,10 @@ std::optional<typename SurfaceTrace<Real>::Heading> SurfaceTrace<Real>::side(Ind
   return found;
 }
 
-/// Turns at a vertex from one direction to another; where no triangles lead around, one leg ends
-/// and the next begins.
-template <class Real>
-void SurfaceTrace<Real>::add(Way& way, Strip& leg, Heading& at, const Heading& to) const {
-  std::vector<Crossing> around;
-  if (straightener_.around(at.face, at.corner, at.angle, to.face, to.corner, to.angle, infinity,
-                           around)) {
-    leg.crossings.insert(leg.crossings.end(), around.begin(), around.end());
-  } else {
-    leg.end = at_corner(at.corner);
-    way.legs.push_back(std::move(leg));
-    leg = Strip{};
-    leg.first = to.face;
-    leg.start = at_corner(to.corner);
-  }
-  at = to;
-}
-
 /// Along edges: down the distances, or, blindly, the shortest way there is.
 template <class Real>
 bool SurfaceTrace<Real>::descend(Index f, const std::array<double, 3>& b, bool blindly,
-                                 Way& way) const {
+                                 StripWay& way) const {
   const auto triangles = mesh_.triangles();
   // Where sources are: a vertex, or a triangle at a vertex.
   struct End {
@@ -115,7 +96,7 @@ bool SurfaceTrace<Real>::descend(Index f, const std::array<double, 3>& b, bool b
   bool begun = !at_vertex;  // does the leg have a direction to turn from?
   const auto turn_to = [&](const Heading& to) {
     if (begun) {
-      add(way, leg, at, to);
+      strips_.add(way, leg, at, to);
     } else {
       leg.first = to.face;
       leg.start = at_corner(to.corner);
@@ -149,9 +130,9 @@ bool SurfaceTrace<Real>::descend(Index f, const std::array<double, 3>& b, bool b
   return true;
 }
 
-template bool SurfaceTrace<float>::descend(Index, const std::array<double, 3>&, bool, Way&) const;
-template bool SurfaceTrace<double>::descend(Index, const std::array<double, 3>&, bool, Way&) const;
-template void SurfaceTrace<float>::add(Way&, Strip&, Heading&, const Heading&) const;
-template void SurfaceTrace<double>::add(Way&, Strip&, Heading&, const Heading&) const;
+template bool SurfaceTrace<float>::descend(Index, const std::array<double, 3>&, bool,
+                                           StripWay&) const;
+template bool SurfaceTrace<double>::descend(Index, const std::array<double, 3>&, bool,
+                                            StripWay&) const;
 
 }  // namespace plexway

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "apps/infinity.hpp"
-#include "apps/window_read_out.hpp"
 
 namespace plexway {
 namespace {
@@ -115,17 +114,10 @@ double SurfaceReadOut<Real>::offered(const Step* steps, int count, const Point& 
 
 template <class Real>
 double SurfaceReadOut<Real>::at(Index f, const std::array<double, 3>& weight, ReadOut level) const {
-  const TriangleRecord<Real>& t = triangles_[f];
-  if (level == ReadOut::linear) {
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      if (weight[i] > 0)
-        sum += weight[i] * static_cast<double>(solved_.field.distance[solved_.outer[t.corner[i]]]);
-    return sum / mesh_.unit();
-  }
-  if (solved_.windows) return WindowReadOut<Real>(mesh_, solved_).at(f, weight);
+  if (windows_) return windows_->at(f, weight);
   double best = labels_.reached(f) ? own(f, weight) : infinity;
   if (level == ReadOut::simplex) return best;
+  const TriangleRecord<Real>& t = triangles_[f];
   for (std::size_t i = 0; i < 3; ++i) {
     const Point p = point_over(f, i, weight);
     best = std::min(
@@ -155,24 +147,32 @@ double SurfaceReadOut<Real>::at(Index f, const std::array<double, 3>& weight, Re
 }
 
 template <class Real>
-std::array<double, 2> SurfaceReadOut<Real>::gradient(Index f) const {
-  if (solved_.windows) return WindowReadOut<Real>(mesh_, solved_).gradient(f);
+std::optional<std::array<double, 3>> SurfaceReadOut<Real>::towards(
+    Index f, const std::array<double, 3>& weight) const {
+  if (windows_) {
+    const auto sight = windows_->look(f, weight);
+    using Over = typename WindowReadOut<Real>::Sight::Over;
+    return sight.over == Over::nothing ? std::nullopt : std::optional(sight.place);
+  }
+  if (!labels_.reached(f)) return std::nullopt;
   const TriangleRecord<Real>& t = triangles_[f];
-  const std::size_t in = labels_.hinge(f);
-  const Point centre = point_over(f, in, {1. / 3, 1. / 3, 1. / 3});
-  const Vector2 q = {centre.x[0], centre.h};
-  const Vector2 away = q - labels_.sight(f, q).bend;
-  const double length = norm(away);
-  if (!(length > 0)) return {0, 0};
-  // From edge `in` to edge 0: turned by the angles between them.
-  double x = away.x / length, y = away.y / length;
-  const auto turn = [&](double c, double s) {
-    std::tie(x, y) = std::pair(x * c - y * s, x * s + y * c);
-  };
-  // Edge i + 1 runs at pi less the angle at corner i + 1 from edge i.
-  for (std::size_t i = in; i != 0; i = edge_before(i))
-    turn(-static_cast<double>(t.cosine[i]), static_cast<double>(t.sine(i)));
-  return {x, y};
+  const std::size_t in = labels_.hinge(f), after = edge_after(in), apex = edge_before(in);
+  const Point p = point_over(f, in, weight);
+  const Vector2 q = {p.x[0], p.h}, way = labels_.sight(f, q).bend - q;
+  const double length = static_cast<double>(t.length[in]);
+  const double height = static_cast<double>(t.apex_h(in));
+  if (!(length > 0) || !(height > 0)) return std::nullopt;
+  // As a change of the barycentric coordinates, as far as the rim.
+  std::array<double, 3> change{};
+  change[apex] = way.y / height;
+  change[after] = (way.x - change[apex] * static_cast<double>(t.apex_x(in))) / length;
+  change[in] = -change[apex] - change[after];
+  double share = 1;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (change[i] < 0) share = std::min(share, weight[i] / -change[i]);
+  std::array<double, 3> place{};
+  for (std::size_t i = 0; i < 3; ++i) place[i] = std::max(weight[i] + share * change[i], 0.);
+  return place;
 }
 
 template class SurfaceReadOut<float>;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include <plexway/apps/read_out.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 
 #include "apps/solved.hpp"
 #include "apps/surface_labels.hpp"
+#include "apps/window_read_out.hpp"
 
 namespace plexway {
 
@@ -19,12 +21,15 @@ class SurfaceReadOut {
   using Point = typename Posed::Point;
 
   SurfaceReadOut(const TriangleMesh<Real>& mesh, const Solved<Real>& solved)
-      : mesh_(mesh), triangles_(mesh.triangles()), solved_(solved), labels_(mesh, solved) {}
+      : mesh_(mesh), triangles_(mesh.triangles()), solved_(solved), labels_(mesh, solved) {
+    if (solved.windows) windows_.emplace(mesh, solved);
+  }
 
   [[nodiscard]] double at(Index f, const std::array<double, 3>& weight, ReadOut level) const;
-  /// Unit direction away from the source at the centre of a reached triangle: along its edge 0 and
-  /// off it. 0 where the source is there.
-  [[nodiscard]] std::array<double, 2> gradient(Index f) const;
+  /// Where the straight line from a point of f, not on the rim, back to the source leads: a place
+  /// in f, which is the point itself where the source is there. Nothing where no path leads.
+  [[nodiscard]] std::optional<std::array<double, 3>> towards(
+      Index f, const std::array<double, 3>& weight) const;
 
  private:
   struct Step {  // from one triangle over its edge `out` to the next, whose edge is `in`
@@ -46,6 +51,7 @@ class SurfaceReadOut {
   std::span<const TriangleRecord<Real>> triangles_;
   const Solved<Real>& solved_;
   SurfaceLabels<Real> labels_;
+  std::optional<WindowReadOut<Real>> windows_;
 };
 
 extern template class SurfaceReadOut<float>;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "apps/infinity.hpp"
-#include "apps/window_read_out.hpp"
 
 namespace plexway {
 namespace {
@@ -24,9 +23,9 @@ template <class Real>
 SurfaceTrace<Real>::SurfaceTrace(const TriangleMesh<Real>& mesh, const Solved<Real>& solved)
     : mesh_(mesh),
       solved_(solved),
-      shape_(mesh, solved.positions, solved.outer),
-      labels_(mesh, solved),
-      straightener_(mesh_, shape_) {}
+      strips_(mesh, solved.positions, solved.outer),
+      shape_(strips_.shape()),
+      labels_(mesh, solved) {}
 
 template <class Real>
 std::optional<std::array<double, 3>> SurfaceTrace<Real>::source_in(Index f, Index number) const {
@@ -170,7 +169,7 @@ typename SurfaceTrace<Real>::Seen SurfaceTrace<Real>::look(Strip& leg, Heading& 
 
 /// From bend to bend, each time by the best label at the vertex.
 template <class Real>
-bool SurfaceTrace<Real>::see(const Strip& begin, Way& way) const {
+bool SurfaceTrace<Real>::see(const Strip& begin, StripWay& way) const {
   Strip leg = begin;
   if (!leg.crossings.empty()) return follow(std::move(leg), way);
   leg.end = leg.start;
@@ -216,7 +215,7 @@ bool SurfaceTrace<Real>::see(const Strip& begin, Way& way) const {
     known = best;
     f = next / 3;
     // Which way it goes on there is not known before it is pulled: any direction will do.
-    add(way, leg, at, {f, next % 3, shape_.angle(f, next % 3) / 2});
+    strips_.add(way, leg, at, {f, next % 3, shape_.angle(f, next % 3) / 2});
     leg.end = at_corner(next % 3);
   }
 }
@@ -224,7 +223,7 @@ bool SurfaceTrace<Real>::see(const Strip& begin, Way& way) const {
 /// Back over the hinges. Every triangle is entered once at most, so it ends; false if it comes to
 /// one twice or finds no way on.
 template <class Real>
-bool SurfaceTrace<Real>::follow(Strip leg, Way& way) const {
+bool SurfaceTrace<Real>::follow(Strip leg, StripWay& way) const {
   std::unordered_set<Index> visited;
   Index f = leg.last();
   const auto pinched = mesh_.pinched();
@@ -261,63 +260,7 @@ bool SurfaceTrace<Real>::follow(Strip leg, Way& way) const {
 }
 
 template <class Real>
-typename SurfaceTrace<Real>::Traced SurfaceTrace<Real>::straighten(Way way) const {
-  Traced traced;
-  traced.source = way.source;
-  for (Strip& leg : way.legs) {
-    traced.pulled.push_back(straightener_.straighten(leg));
-    traced.length += traced.pulled.back().length;
-  }
-  traced.legs = std::move(way.legs);
-  return traced;
-}
-
-template <class Real>
-Path SurfaceTrace<Real>::to_path(const Traced& traced) const {
-  Path path;
-  path.source = traced.source;
-  path.windows = traced.windows;
-  path.capped = traced.capped;
-  path.length = 0;
-  const auto push = [&](Index f, const std::array<double, 3>& b) {
-    const Index number = mesh_.triangles()[f].face;
-    const bool turned = (number & reversed) != 0;
-    path.points.push_back({number & ~reversed, {b[0], turned ? b[2] : b[1], turned ? b[1] : b[2]}});
-    const auto places = shape_.embedded() ? solved_.positions : solved_.drawn;
-    if (places.empty()) return;
-    std::array<double, 3> at = {0, 0, 0};
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 3; ++k)
-        at[k] += b[i] * places[solved_.outer[mesh_.triangles()[f].corner[i]]][k];
-    path.positions.push_back(at);
-  };
-  for (std::size_t k = 0; k < traced.legs.size(); ++k) {
-    const Strip& leg = traced.legs[k];
-    const std::size_t triangles = leg.crossings.size() + 1;
-    for (std::size_t i = 0; i < triangles; ++i) {
-      const auto in = entry(leg, traced.pulled[k], i), out = exit(leg, traced.pulled[k], i);
-      if (in == out) continue;
-      push(leg.face(i), in);
-      if (!shape_.embedded()) path.length += shape_.distance(leg.face(i), in, out);
-    }
-  }
-  push(traced.legs.back().last(), traced.legs.back().end);
-  if (!shape_.embedded()) return path;
-  for (std::size_t i = 0; i + 1 < path.positions.size(); ++i) {
-    const auto &p = path.positions[i], &q = path.positions[i + 1];
-    path.length += std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
-  }
-  return path;
-}
-
-template <class Real>
-Path SurfaceTrace<Real>::trace(const PointSource& point, const TraceOptions& options) const {
-  // The strips to try begin with: the triangle of the point, or one of those around its vertex.
-  struct Begin {
-    double estimate;
-    Strip strip;
-  };
-  std::vector<Begin> begins;
+PulledWay SurfaceTrace<Real>::find(const PointSource& point, const TraceOptions& options) const {
   Index f = none;
   std::array<double, 3> b = {};
   Index vertex = point.vertex;
@@ -345,6 +288,27 @@ Path SurfaceTrace<Real>::trace(const PointSource& point, const TraceOptions& opt
     return {};
   }
 
+  PulledWay best;
+  const auto whole = [&](const PulledWay& t) {
+    return t.length + solved_.sources[t.source].offset;
+  };
+  const auto keep = [&](PulledWay traced) {
+    if (best.source == none || whole(traced) < whole(best)) best = std::move(traced);
+  };
+  if (StripWay way; solved_.windows && follow_windows(f, b, way)) {
+    best = strips_.straighten(std::move(way));
+    // Exact ones leave nothing to be found.
+    if (options.margin && solved_.field.accuracy != Accuracy::exact())
+      search_windows(f, b, options, best);
+    return best;
+  }
+
+  // The strips to try begin with: the triangle of the point, or one of those around its vertex.
+  struct Begin {
+    double estimate;
+    Strip strip;
+  };
+  std::vector<Begin> begins;
   if (solved_.labels && vertex != none) {
     for (const Index c : corners) {
       if (!labels_.reached(c / 3)) continue;
@@ -370,29 +334,24 @@ Path SurfaceTrace<Real>::trace(const PointSource& point, const TraceOptions& opt
   std::stable_sort(begins.begin(), begins.end(),
                    [](const Begin& l, const Begin& r) { return l.estimate < r.estimate; });
 
-  Traced best;
-  const auto whole = [&](const Traced& t) { return t.length + solved_.sources[t.source].offset; };
-  const auto keep = [&](Traced traced) {
-    if (best.source == none || whole(traced) < whole(best)) best = std::move(traced);
-  };
   const double unit = mesh_.unit();
   std::vector<std::pair<Index, std::vector<Index>>> tried;
   for (const Begin& begin : begins) {
     if (best.source != none && begin.estimate * unit * doubt > whole(best)) break;
-    Way way;
+    StripWay way;
     if (see(begin.strip, way)) {
       // Over the same vertices it would be the same path.
       const auto bends = std::make_pair(way.source, way.bends);
       if (std::find(tried.begin(), tried.end(), bends) == tried.end()) {
         tried.push_back(bends);
-        keep(straighten(std::move(way)));
+        keep(strips_.straighten(std::move(way)));
       }
     }
   }
   if (solved_.field.distance.empty()) {
     if (best.source == none) return {};
     search_windows(f, b, options, best);
-    return to_path(best);
+    return best;
   }
   double promise = infinity;  // by a corner, as the field has it
   for (std::size_t i = 0; i < 3; ++i)
@@ -400,23 +359,15 @@ Path SurfaceTrace<Real>::trace(const PointSource& point, const TraceOptions& opt
         promise, static_cast<double>(
                      solved_.field.distance[shape_.outer_vertex(mesh_.triangles()[f].corner[i])]) +
                      shape_.distance(f, at_corner(i), b));
-  if (solved_.windows) {
-    if (corner_of(b) == 3) promise = WindowReadOut<Real>(mesh_, solved_).at(f, b) * unit;
-    if (Way way; follow_windows(f, b, way)) keep(straighten(std::move(way)));
-    constexpr double rounding = 1e-9;
-    if (best.source != none && solved_.field.accuracy == Accuracy::exact() &&
-        whole(best) <= promise * (1 + rounding))
-      return to_path(best);  // there is none shorter
-  }
   for (const bool blindly : {false, true}) {
     const double allowed = promise * (blindly ? failure : disappointment);
-    Way way;
+    StripWay way;
     if (!(best.source != none && whole(best) <= allowed) && descend(f, b, blindly, way))
-      keep(straighten(std::move(way)));
+      keep(strips_.straighten(std::move(way)));
   }
   if (best.source == none) return {};
   search_windows(f, b, options, best);
-  return to_path(best);
+  return best;
 }
 
 template class SurfaceTrace<float>;

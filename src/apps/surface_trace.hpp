@@ -10,8 +10,8 @@
 #include <plexway/source/point_source.hpp>
 
 #include "apps/solved.hpp"
-#include "apps/straighten.hpp"
 #include "apps/strip.hpp"
+#include "apps/strip_paths.hpp"
 #include "apps/surface_labels.hpp"
 #include "apps/surface_shape.hpp"
 
@@ -40,58 +40,36 @@ class SurfaceTrace {
  public:
   SurfaceTrace(const TriangleMesh<Real>& mesh, const Solved<Real>& solved);
 
-  /// The shortest of the ways that the labels around the point lead. Empty where none does.
-  [[nodiscard]] Path trace(const PointSource& point, const TraceOptions& options) const;
+  /// The shortest of the ways that the labels around the point lead. No source where none does.
+  [[nodiscard]] PulledWay find(const PointSource& point, const TraceOptions& options) const;
+  /// The same as a path.
+  [[nodiscard]] Path trace(const PointSource& point, const TraceOptions& options) const {
+    const PulledWay way = find(point, options);
+    return way.source == none ? Path() : strips_.to_path(way, solved_.drawn);
+  }
 
  private:
-  /// A way from a point to a source: strips that meet in vertices.
-  struct Way {
-    std::vector<Strip> legs;
-    Index source = none;
-    std::vector<Index> bends = {};  ///< vertices, as far as they are known before it is pulled
-  };
-  /// A triangle, a corner of it, and a direction there, as an angle from the edge of that number.
-  struct Heading {
-    Index face;
-    std::size_t corner;
-    double angle;
-  };
-
   [[nodiscard]] std::optional<std::array<double, 3>> source_in(Index f, Index number) const;
-  bool see(const Strip& begin, Way& way) const;
+  bool see(const Strip& begin, StripWay& way) const;
   enum class Seen { vertex, source, nothing };
   Seen look(Strip& leg, Heading& at, Index number) const;
-  bool follow(Strip leg, Way& way) const;
+  bool follow(Strip leg, StripWay& way) const;
   [[nodiscard]] std::optional<Crossing> back_from(Index f) const;
   /// At a vertex where fans meet, a corner from where a path leads on.
   [[nodiscard]] Index beyond_pinch(Index vertex) const;
 
-  bool follow_windows(Index f, std::array<double, 3> at, Way& way) const;
-  bool descend(Index f, const std::array<double, 3>& b, bool blindly, Way& way) const;
+  bool follow_windows(Index f, std::array<double, 3> at, StripWay& way) const;
+  bool descend(Index f, const std::array<double, 3>& b, bool blindly, StripWay& way) const;
   [[nodiscard]] std::optional<Heading> side(Index v, Index w) const;
-  void add(Way& way, Strip& leg, Heading& at, const Heading& to) const;
 
-  struct Traced;
   void search_windows(Index f, const std::array<double, 3>& b, const TraceOptions& options,
-                      Traced& best) const;
-  [[nodiscard]] Way joined(std::vector<Strip> strips, Index source) const;
-
-  struct Traced {
-    std::vector<Strip> legs;
-    std::vector<PulledStrip> pulled;
-    double length = 0;
-    Index source = none;
-    std::size_t windows = 0;  // looked at
-    bool capped = false;      // and there were more
-  };
-  [[nodiscard]] Traced straighten(Way way) const;
-  [[nodiscard]] Path to_path(const Traced& traced) const;
+                      PulledWay& best) const;
 
   const TriangleMesh<Real>& mesh_;
   const Solved<Real>& solved_;
-  SurfaceShape<Real> shape_;
+  StripPaths<Real> strips_;
+  const SurfaceShape<Real>& shape_;
   SurfaceLabels<Real> labels_;
-  Straightener<Real> straightener_;
 };
 
 }  // namespace plexway

@@ -12,7 +12,7 @@ namespace plexway {
 /// Distances of vertices on the way fall, and there is a most of steps, so it ends; false if it
 /// finds no way on.
 template <class Real>
-bool SurfaceTrace<Real>::follow_windows(Index f, std::array<double, 3> at, Way& way) const {
+bool SurfaceTrace<Real>::follow_windows(Index f, std::array<double, 3> at, StripWay& way) const {
   using Sight = typename WindowReadOut<Real>::Sight;
   const WindowReadOut<Real> windows(mesh_, solved_);
   const auto triangles = mesh_.triangles();
@@ -21,13 +21,13 @@ bool SurfaceTrace<Real>::follow_windows(Index f, std::array<double, 3> at, Way& 
   };
   // The source that a vertex is, or none.
   const auto source_at = [&](Index v) {
-    for (Index n = 0; n < solved_.sources.size(); ++n) {
-      const PointSource& s = solved_.sources[n];
-      if (s.vertex != none && mesh_.inside_vertex(s.vertex) == v &&
-          static_cast<Real>(s.offset) <= solved_.field.distance[s.vertex])
-        return n;
-    }
-    return none;
+    const Index outer = solved_.outer[v];
+    const Index n = solved_.field.label.empty() ? 0 : solved_.field.label[outer];
+    if (n >= solved_.sources.size()) return none;
+    const PointSource& s = solved_.sources[n];
+    const bool here =
+        s.vertex == outer && static_cast<Real>(s.offset) <= solved_.field.distance[outer];
+    return here ? n : none;
   };
   constexpr double at_end = 1e-12;  // of an edge: a crossing so near is the vertex
   std::vector<Strip> strips;
@@ -50,7 +50,7 @@ bool SurfaceTrace<Real>::follow_windows(Index f, std::array<double, 3> at, Way& 
       }
       if (const Index n = source_at(v); n != none) {
         if (strips.empty()) strips.push_back({f, at, at, {}});
-        way = joined(std::move(strips), n);
+        way = strips_.joined(std::move(strips), n);
         return true;
       }
       mesh_.corners_at(v, corners);
@@ -70,7 +70,7 @@ bool SurfaceTrace<Real>::follow_windows(Index f, std::array<double, 3> at, Way& 
       case Sight::Over::source:
         leg.end = sight.place;
         strips.push_back(std::move(leg));
-        way = joined(std::move(strips), sight.source);
+        way = strips_.joined(std::move(strips), sight.source);
         return true;
       case Sight::Over::corner:
         at = sight.place;
@@ -106,7 +106,7 @@ bool SurfaceTrace<Real>::follow_windows(Index f, std::array<double, 3> at, Way& 
   return false;
 }
 
-template bool SurfaceTrace<float>::follow_windows(Index, std::array<double, 3>, Way&) const;
-template bool SurfaceTrace<double>::follow_windows(Index, std::array<double, 3>, Way&) const;
+template bool SurfaceTrace<float>::follow_windows(Index, std::array<double, 3>, StripWay&) const;
+template bool SurfaceTrace<double>::follow_windows(Index, std::array<double, 3>, StripWay&) const;
 
 }  // namespace plexway

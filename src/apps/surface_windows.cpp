@@ -11,32 +11,9 @@
 namespace plexway {
 namespace {}  // namespace
 
-/// One way of straight strips that meet in vertices.
-template <class Real>
-typename SurfaceTrace<Real>::Way SurfaceTrace<Real>::joined(std::vector<Strip> strips,
-                                                            Index source) const {
-  Way way;
-  way.source = source;
-  // Which way it goes on at a vertex is not known before it is pulled: any direction will do.
-  const auto heading = [&](Index f, const std::array<double, 3>& b) {
-    const std::size_t i = corner_of(b);
-    return Heading{f, i, shape_.angle(f, i) / 2};
-  };
-  Strip leg = std::move(strips[0]);
-  for (std::size_t k = 1; k < strips.size(); ++k) {
-    Heading at = heading(leg.last(), leg.end);
-    add(way, leg, at, heading(strips[k].first, strips[k].start));
-    leg.crossings.insert(leg.crossings.end(), strips[k].crossings.begin(),
-                         strips[k].crossings.end());
-    leg.end = strips[k].end;
-  }
-  way.legs.push_back(std::move(leg));
-  return way;
-}
-
 template <class Real>
 void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
-                                        const TraceOptions& options, Traced& best) const {
+                                        const TraceOptions& options, PulledWay& best) const {
   const double unit = mesh_.unit();
   std::vector<Index> corners;
   const auto left = [&](Index v) {
@@ -85,7 +62,7 @@ void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
         stay.start = stay.end = b;
         found.strips.push_back(std::move(stay));
       }
-      Traced traced = straighten(joined(std::move(found.strips), found.goal));
+      PulledWay traced = strips_.straighten(strips_.joined(std::move(found.strips), found.goal));
       if (traced.length + solved_.sources[found.goal].offset < known) best = std::move(traced);
     }
     best.windows = windows;
@@ -118,8 +95,8 @@ void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
 }
 
 template void SurfaceTrace<float>::search_windows(Index, const std::array<double, 3>&,
-                                                  const TraceOptions&, Traced&) const;
+                                                  const TraceOptions&, PulledWay&) const;
 template void SurfaceTrace<double>::search_windows(Index, const std::array<double, 3>&,
-                                                   const TraceOptions&, Traced&) const;
+                                                   const TraceOptions&, PulledWay&) const;
 
 }  // namespace plexway

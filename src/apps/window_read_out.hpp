@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <plexway/complex/triangle_mesh.hpp>
 
@@ -19,7 +22,12 @@ template <class Real>
 class WindowReadOut {
  public:
   WindowReadOut(const TriangleMesh<Real>& mesh, const Solved<Real>& solved)
-      : mesh_(mesh), solved_(solved) {}
+      : mesh_(mesh), solved_(solved) {
+    for (Index n = 0; n < solved.sources.size(); ++n)
+      if (solved.sources[n].vertex == none)
+        within_.emplace_back(mesh.inside_face(solved.sources[n].simplex).first, n);
+    std::sort(within_.begin(), within_.end());
+  }
 
   /// The last straight piece of a path in a triangle: from a place on its rim, or from a source.
   struct Sight {
@@ -49,14 +57,13 @@ class WindowReadOut {
       offer(d / unit + apart(t, weight, at_corner(i)), Sight::Over::corner, 3, at_corner(i),
             solved_.field.label.empty() ? 0 : solved_.field.label[v]);
     }
-    for (Index n = 0; n < solved_.sources.size(); ++n) {
-      const PointSource& s = solved_.sources[n];
-      if (s.vertex != none) continue;
-      const auto [face, turned] = mesh_.inside_face(s.simplex);
-      if (face != f) continue;
+    for (auto at = std::lower_bound(within_.begin(), within_.end(), std::pair<Index, Index>(f, 0));
+         at != within_.end() && at->first == f; ++at) {
+      const PointSource& s = solved_.sources[at->second];
+      const bool turned = mesh_.inside_face(s.simplex).second;
       const std::array<double, 3> place = {s.barycentric[0], s.barycentric[turned ? 2 : 1],
                                            s.barycentric[turned ? 1 : 2]};
-      offer(s.offset / unit + apart(t, weight, place), Sight::Over::source, 3, place, n);
+      offer(s.offset / unit + apart(t, weight, place), Sight::Over::source, 3, place, at->second);
     }
     for (std::size_t e = 0; e < 3; ++e) {
       if (e == entered || (own < 3 && e != edge_after(own))) continue;
@@ -81,17 +88,6 @@ class WindowReadOut {
     const Index v = solved_.outer[mesh_.triangles()[f].corner[own]];
     return static_cast<double>(solved_.field.distance[v]) / mesh_.unit();
   }
-  /// Unit direction away from the source at the centre: along edge 0 and off it. 0 where the source
-  /// is there, or nothing leads there.
-  [[nodiscard]] std::array<double, 2> gradient(Index f) const {
-    constexpr std::array<double, 3> centre = {1. / 3, 1. / 3, 1. / 3};
-    const Sight sight = look(f, centre);
-    if (sight.over == Sight::Over::nothing) return {0, 0};
-    const auto [x, y] = difference(mesh_.triangles()[f], centre, sight.place);
-    const double length = std::hypot(x, y);
-    if (!(length > 0)) return {0, 0};
-    return {x / length, y / length};
-  }
 
  private:
   /// From q to p, along edge 0 and off it.
@@ -110,6 +106,7 @@ class WindowReadOut {
 
   const TriangleMesh<Real>& mesh_;
   const Solved<Real>& solved_;
+  std::vector<std::pair<Index, Index>> within_;  ///< triangles with a source inside, and which
 };
 
 }  // namespace plexway

@@ -6,12 +6,15 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <mutex>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "complex/box_tree.hpp"
 #include "propagate/workspace_state.hpp"
 
 namespace plexway {
@@ -36,7 +39,8 @@ class StraightLines {
       : positions_(positions), places_(places), count_(places.size()) {}
 
   /// Raises what is below, by more than rounding. Returns how many were by more than 1e-4. Cost: 24
-  /// bytes read a vertex, and all sources for a vertex that is below the line to its own.
+  /// bytes read a vertex; and for one that is below the line to its own source, as rounding leaves
+  /// every other in the plane, the sources that lie about as near.
   template <bool kLabels, class Crew>
   std::size_t raise(WorkspaceState<Real>& workspace, const Crew& crew) const {
     if (positions_.empty() || count_ == 0) return 0;
@@ -53,7 +57,7 @@ class StraightLines {
         }
         if (!line.longer_than(d, positions_[v])) [[likely]]
           continue;
-        const double least = least_line(v);
+        const double least = least_line(v, line);
         some += static_cast<double>(d) < least * (1 - 1e-4);
         d = std::max(d, static_cast<Real>(least));
       }
@@ -65,19 +69,13 @@ class StraightLines {
   /// One vertex, by its number inside, at distance d from a source.
   [[nodiscard]] Real raised(std::size_t v, Real d, Index source) const {
     if (positions_.empty() || source >= count_) return d;
-    if (!Line(*this, source).longer_than(d, positions_[v])) return d;
-    return std::max(d, static_cast<Real>(least_line(v)));
+    const Line line(*this, source);
+    if (!line.longer_than(d, positions_[v])) return d;
+    return std::max(d, static_cast<Real>(least_line(v, line)));
   }
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-
-  [[nodiscard]] double least_line(std::size_t v) const {
-    double least = infinity;
-    for (std::size_t n = 0; n < count_; ++n)
-      least = std::min(least, Line(*this, static_cast<Index>(n)).length(positions_[v]));
-    return least;
-  }
 
   // From one source to any vertex.
   struct Line {
@@ -137,6 +135,16 @@ class StraightLines {
       return most > 0;
     }
 
+    /// No line from here is shorter than from this box, this much along a fourth axis. A place that
+    /// is not known is everywhere.
+    [[nodiscard]] Box<4> box() const {
+      constexpr double far = 1e150;
+      const double way = sigma - back[0];
+      if (!(std::abs(at[0][0]) + std::abs(at[0][1]) + std::abs(at[0][2]) < far))
+        return {{-far, -far, -far, way}, {far, far, far, way}};
+      return {{at[0][0], at[0][1], at[0][2], way}, {at[0][0], at[0][1], at[0][2], way}};
+    }
+
     Index source;
     double sigma = 0;
     std::size_t ends = 1;
@@ -144,11 +152,33 @@ class StraightLines {
     std::array<double, 3> back{};
   };
 
+  /// The shortest line to a vertex, of which one is known.
+  [[nodiscard]] double least_line(std::size_t v, const Line& known) const {
+    const std::array<double, 3>& p = positions_[v];
+    double least = known.length(p);
+    if (count_ == 1) return least;
+    std::call_once(grown_, [&] {
+      std::vector<Box<4>> boxes;
+      for (Index n = 0; n < count_; ++n) boxes.push_back(Line(*this, n).box());
+      by_place_ = BoxTree<4>(boxes);
+    });
+    const auto may_be_shorter = [&](const Box<4>& box) {
+      const Box<3> place = {{box.low[0], box.low[1], box.low[2]},
+                            {box.high[0], box.high[1], box.high[2]}};
+      return !(box.low[3] + place.distance(p) >= least);
+    };
+    by_place_.search(may_be_shorter,
+                     [&](Index n) { least = std::min(least, Line(*this, n).length(p)); });
+    return least;
+  }
+
   const TriangleMesh<Real>* mesh_ = nullptr;
   std::span<const std::array<double, 3>> positions_;
   std::span<const PointSource> sources_;
   std::span<const SourcePlace> places_;
   std::size_t count_ = 0;  ///< of sources
+  mutable std::once_flag grown_;
+  mutable BoxTree<4> by_place_;
 };
 
 }  // namespace plexway

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "apps/path_testing.hpp"
+#include "with_accuracy.hpp"
 
 namespace plexway::testing::edge_path_test {
 
@@ -76,14 +77,14 @@ TEST_CASE("a path from a source with an offset may stay there") {
   std::size_t stayed = 0;
   for (const Index from : {0u, 10u, 220u})
     for (Index to = 0; to < mesh.vertex_count(); ++to) {
-      field.solve(Serial{}, PointSource::at(from));
+      field.solve(Serial{}, PointSource::at(from), by_labels());
       const double field_says = field.distances().distance[to];
       const double traced = field.trace(to, none_wider).length, best = field.trace(to).length;
       if (!(traced > field_says * (1 + 1e-5))) continue;
       for (const double share : {0.5, 0.9, 0.999}) {
         std::vector<PointSource> sources = {PointSource::at(from), PointSource::at(to)};
         sources[1].offset = share * traced + (1 - share) * field_says;
-        field.solve(Serial{}, sources);
+        field.solve(Serial{}, sources, by_labels());
         const Path path = field.trace(to);
         REQUIRE(path.source < 2);
         CHECK(path.length + sources[path.source].offset <= best * (1 + 1e-9));

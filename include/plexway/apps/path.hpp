@@ -21,11 +21,11 @@ struct PathPoint {
 /// How hard to look for a path on a surface or a cloud.
 struct TraceOptions {
   /// The path found is the shortest of all if nowhere near it the field is too long by more than
-  /// this share: what could be shorter is searched for, exactly. None: `usual_margin`. 0: not at
-  /// all, which is some ten times faster; then the path is locally shortest. Refused where paths
-  /// are not searched for (Purpose::margins).
+  /// this share: what could be shorter is searched for, exactly. None: not where windows lead
+  /// (Accuracy), else `usual_margin`. 0: not at all, which is some ten times faster; then the path
+  /// is locally shortest. Refused where paths are not searched for (Purpose::margins).
   std::optional<double> margin = {};
-  /// The margin where none is given.
+  /// The margin after labels where none is given.
   static constexpr double usual_margin = 3e-3;
   /// Parts of edges looked at for that at most, 0.2 us each. Where they run out (Path::capped),
   /// half the margin is tried with as many, and so on.

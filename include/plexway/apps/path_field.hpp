@@ -10,6 +10,7 @@
 
 #include <plexway/apps/path.hpp>
 #include <plexway/apps/read_out.hpp>
+#include <plexway/complex/intrinsic_delaunay.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/complex/wireframe.hpp>
@@ -53,22 +54,30 @@ class PathField<Domain<Real>> {
   explicit PathField(const Domain<Real>& domain,
                      std::span<const std::array<double, 3>> positions = {});
 
+  /// On the intrinsic Delaunay triangulation of a surface, `domain`, which is delaunay.mesh(): all
+  /// points, positions and paths are those of the input. A path is found where it was solved, and
+  /// laid on the input's triangles; its length is that there. Refers to all of them.
+  PathField(const Domain<Real>& domain, const IntrinsicDelaunay& delaunay,
+            const Domain<Real>& input,
+            std::span<const std::array<double, 3>> positions = {}) requires(Domain<Real>::kind ==
+                                                                            DomainKind::surface);
+
   /// The distance of every vertex from the nearest of `sources`. Throws and costs as
   /// plexway::solve. Paths can be traced after an executor that leaves no labels as well, by the
   /// vertices' distances alone.
   template <class Executor>
   const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
                                    const PropagateOptions& options = {}) {
-    solved_ = false;
+    const std::span<const PointSource> there = take(sources);
     constexpr bool keeps = std::is_same_v<WorkspaceOf<Executor, Domain<Real>>, Workspace<Real>>;
     if constexpr (keeps) {
       workspace_.keep_windows(true);
-      plexway::solve(executor, *domain_, sources, options, workspace_, field_);
+      plexway::solve(executor, *domain_, there, options, workspace_, field_);
     } else {
-      field_ = plexway::solve(executor, *domain_, sources, options);
+      field_ = plexway::solve(executor, *domain_, there, options);
     }
     const bool fast = field_.accuracy == Accuracy::fast();
-    took(sources, options.visibility, !keeps ? Kept::nothing : fast ? Kept::labels : Kept::windows);
+    took(options.visibility, !keeps ? Kept::nothing : fast ? Kept::labels : Kept::windows);
     return field_;
   }
   /// From one source.
@@ -78,15 +87,7 @@ class PathField<Domain<Real>> {
     return solve(executor, std::span<const PointSource>(&source, 1), options);
   }
 
-  /// Distances from the same sources found elsewhere, as on other triangles over the same surface;
-  /// one a vertex. Paths are then traced by the vertices' distances alone.
-  void adopt(DistanceField<Real> found, std::span<const PointSource> sources) {
-    solved_ = false;
-    field_ = std::move(found);
-    took(sources, Visibility::saddles, Kept::nothing);
-  }
-
-  /// What the last solve found.
+  /// What the last solve found. Vertices that a refinement put in come last.
   [[nodiscard]] const DistanceField<Real>& distances() const { return field_; }
 
   /// The way from a point (its offset does not count) back to its nearest source: the shortest
@@ -94,8 +95,10 @@ class PathField<Domain<Real>> {
   /// path of infinite length.
   ///
   /// On surfaces it is straight over every edge and bends only at vertices with at least pi of
-  /// surface on both sides, is at most 1 % longer than the shortest way along edges, and mostly the
-  /// shortest of all (TraceOptions, whose margin is refused elsewhere). On surfaces with refracting
+  /// surface on both sides. After windows (Accuracy) it is the one that they lead, as long as the
+  /// distance: after Accuracy::exact() to rounding, else to what that is off. After labels it is at
+  /// most 1 % longer than the shortest way along edges, and mostly the shortest of all
+  /// (TraceOptions, whose margin is refused elsewhere). On surfaces with refracting
   /// edges it is refracted, as on mixed domains (mixed_path_field.hpp). In solids it bends only at
   /// reflex edges and vertices. Solids without coordinates are as if refracting: each
   /// tetrahedron is flat in its own lengths.
@@ -151,20 +154,34 @@ class PathField<Domain<Real>> {
   [[nodiscard]] const Domain<Real>& domain() const { return *domain_; }
 
  private:
+  PathField(const Domain<Real>& domain, const IntrinsicDelaunay* delaunay,
+            const Domain<Real>& given, std::span<const std::array<double, 3>> positions);
   [[nodiscard]] Support support_of(Purpose purpose) const;
   /// What the workspace has of the field.
   enum class Kept { nothing, labels, windows };
-  void took(std::span<const PointSource> sources, Visibility visibility, Kept kept);
+  /// Where they are in the domain.
+  std::span<const PointSource> take(std::span<const PointSource> sources);
+  void took(Visibility visibility, Kept kept);
   [[nodiscard]] PointSource checked(const PointSource& point) const;
+  [[nodiscard]] std::span<const PointSource> given_sources() const {
+    return delaunay_ ? given_sources_ : sources_;
+  }
+  [[nodiscard]] std::span<const Index> given_outer() const {
+    return delaunay_ ? given_outer_ : outer_;
+  }
   [[nodiscard]] Solved<Real> solved() const;
 
-  const Domain<Real>* domain_;
+  const Domain<Real>* domain_;         // that fields are solved on
+  const Domain<Real>* given_;          // that points are in: mostly the same
+  const IntrinsicDelaunay* delaunay_;  // from the one to the other
   std::span<const std::array<double, 3>> positions_;
   std::vector<Index> outer_;            // from vertices inside to the caller's
+  std::vector<Index> given_outer_;      // the same of `given_`, where that is another
   std::vector<Index> outer_simplices_;  // of tetrahedra inside, and of the arcs of wireframes
   Workspace<Real> workspace_;
   DistanceField<Real> field_;
-  std::vector<PointSource> sources_;
+  std::vector<PointSource> sources_;        // in the domain
+  std::vector<PointSource> given_sources_;  // as they were given, where that is another
   Visibility visibility_ = Visibility::saddles;
   bool solved_ = false;
   Kept kept_ = Kept::nothing;
@@ -179,6 +196,10 @@ PathField(const Domain<Real>&) -> PathField<Domain<Real>>;
 /// Likewise, with positions.
 template <template <class> class Domain, class Real, class Positions>
 PathField(const Domain<Real>&, const Positions&) -> PathField<Domain<Real>>;
+/// Likewise.
+template <class Real>
+PathField(const TriangleMesh<Real>&, const IntrinsicDelaunay&, const TriangleMesh<Real>&,
+          std::span<const std::array<double, 3>>) -> PathField<TriangleMesh<Real>>;
 
 extern template class PathField<TriangleMesh<float>>;
 extern template class PathField<TriangleMesh<double>>;

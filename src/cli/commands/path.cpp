@@ -209,7 +209,7 @@ Notes path_notes_on(const PathOutcome& outcome, const std::vector<PointSource>& 
               ": the search for a shorter one ended early, so there may be one");
   if (apart > 0)
     notes.add(counted(apart, "paths") + ": the length differs from the distance by up to " +
-              short_number(100 * most) + " %; the length is the more exact");
+              short_number(100 * most) + " %: one of the two is off");
   if (unreached > 0) notes.add(counted(unreached, "targets") + " not reached: no path leads there");
   return notes;
 }
@@ -345,7 +345,8 @@ void add_path_command(CLI::App& tool, Action& action) {
   app.add_option(
          "--margin", command->trace.margin,
          "surfaces and clouds: the path is the shortest of all where distances are too long\n"
-         "by no more than this share (default 0.003); 0 is quicker, and locally shortest")
+         "by no more than this share (default 0.003, on surfaces with --accuracy fast alone);\n"
+         "0 is quicker, and locally shortest")
       ->type_name("X");
   add_solve_options(app, command->solve, false);
   add_triangulation_option(app, command->triangulation);

@@ -46,9 +46,13 @@ class Gathered : public Overlay<Real> {
       const Real farther_last = nested ? u.at(end) - w.at_end : u.at_end - w.at(end);
       const bool u_first = farther_first <= 0, u_last = farther_last <= 0;
       if (u_first && u_last) {
+        if (is_nearer_between(w, u, w.beam.begin, end)) {
+          this->insert(added);
+          return;
+        }
         if (nested) return;
         w.begin_at(end);
-      } else if (nested || u_last) {
+      } else if (nested || u_last || (!u_first && is_nearer_between(u, w, w.beam.begin, end))) {
         this->insert(added);
         return;
       } else if (u_first) {

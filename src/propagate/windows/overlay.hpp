@@ -35,6 +35,15 @@ template <class Real>
   }
 }
 
+/// Is w the nearer of the two at its foot, strictly between two places where it is the farther one?
+template <class Real>
+[[nodiscard, gnu::always_inline]] inline bool is_nearer_between(const Window<Real>& w,
+                                                                const Window<Real>& u, Real low,
+                                                                Real high) {
+  const Real foot = w.beam.x;
+  return (foot > low) & (foot < high) && !w.beam.is_parallel() && w.sigma + w.beam.h < u.at(foot);
+}
+
 /// The windows on one edge that serve each of its points best: in order, none over another.
 template <class Real>
 class Overlay {
@@ -83,7 +92,18 @@ class Overlay {
       const Real farther_high = v.window.at(high) - added.window.at(high);
       const bool low_new = farther_low > 0, high_new = farther_high > 0;
       if (low_new == high_new) {
-        add(low_new ? added : v, low, high);
+        const Labelled<Real>&outer = low_new ? added : v, &inner = low_new ? v : added;
+        const Window<Real>&o = outer.window, &n = inner.window;
+        if (is_nearer_between(n, o, low, high)) {
+          const Real foot = n.beam.x, nearer = n.at(foot) - o.at(foot);
+          const Real begin = crossing(n, o, low, foot, n.at(low) - o.at(low), nearer);
+          const Real end = crossing(n, o, foot, high, nearer, n.at(high) - o.at(high));
+          add(outer, low, begin);
+          add(inner, begin, end);
+          add(outer, end, high);
+        } else {
+          add(outer, low, high);
+        }
       } else {
         const Real x = crossing(v.window, added.window, low, high, farther_low, farther_high);
         add(low_new ? added : v, low, x);
