@@ -18,13 +18,14 @@ add_test(NAME "consumer/install"
 set_tests_properties("consumer/install" PROPERTIES FIXTURES_SETUP plexway_installed LABELS consumer)
 
 # plexway_consumer_test(NAME options...) configures and builds in a fresh folder, then runs it.
+# Long tests begin first, so that no core waits for the last of them.
 function(plexway_consumer_test name)
   add_test(NAME "consumer/${name}"
     COMMAND "${CMAKE_CTEST_COMMAND}"
       --build-and-test "${CMAKE_CURRENT_SOURCE_DIR}/consumer" "${consumer_dir}/${name}"
       ${consumer_common} ${ARGN}
       --test-command consumer)
-  set_tests_properties("consumer/${name}" PROPERTIES LABELS consumer TIMEOUT 1500)
+  set_tests_properties("consumer/${name}" PROPERTIES LABELS consumer TIMEOUT 1500 COST 1000)
 endfunction()
 
 plexway_consumer_test(find_package
