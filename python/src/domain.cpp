@@ -93,7 +93,7 @@ std::size_t Domain::bytes() const {
 
 namespace {
 
-py::object positions(const std::shared_ptr<Domain>& domain) {
+py::object positions_of(const std::shared_ptr<Domain>& domain) {
   const py::object owner = py::cast(domain);
   if (const auto* shape = std::get_if<SimplexShape>(&domain->shape().data());
       shape != nullptr && shape->axes > 0)
@@ -129,7 +129,7 @@ py::object simplices(const AnyShape& shape, const py::object& owner) {
 }
 
 // What is closed: as masks by vertices and by simplices, not 0 there; or None.
-py::object mask_of(const Domain& domain) {
+py::object given_mask(const Domain& domain) {
   const Mask* const mask = domain.options().mask.get();
   if (mask == nullptr) return py::none();
   const auto bytes = [](std::span<const char> closed) {
@@ -266,14 +266,14 @@ void bind_domain(py::module_& module) {
       .def_property_readonly(
           "refracts",
           [](const Domain& d) { return d.options().lengths && d.options().lengths->refracts; })
-      .def_property_readonly("positions", &positions)
+      .def_property_readonly("positions", &positions_of)
       .def_property_readonly(
           "simplices",
           [](const std::shared_ptr<Domain>& d) { return simplices(d->open(), py::cast(d)); })
       .def_property_readonly(
           "all_simplices",
           [](const std::shared_ptr<Domain>& d) { return simplices(d->shape(), py::cast(d)); })
-      .def_property_readonly("mask", &mask_of)
+      .def_property_readonly("mask", &given_mask)
       .def_property_readonly("lengths", &given_lengths)
       .def_property_readonly("parts", &parts)
       .def_property_readonly("cloud", &cloud)
