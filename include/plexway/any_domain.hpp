@@ -181,7 +181,8 @@ class AnyDomain {
 
   /// A field that can tell ways, but on complexes none, and there `at` takes ReadOut::linear alone
   /// (UsageError); on mixed domains other levels are ways' lengths. Distances are those of `solve`;
-  /// ways lie in the shape's triangles. Cost: a solve, and those once, where others were taken.
+  /// ways lie in the shape's triangles. Cost: a solve, and once building those where others were
+  /// taken.
   [[nodiscard]] AnyPathField path_field(const AnyExecutor& executor,
                                         std::span<const PointSource> sources,
                                         const PropagateOptions& options = {}) const;

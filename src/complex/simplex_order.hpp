@@ -52,7 +52,8 @@ constexpr std::uint64_t coarse_curve_key(const CurveCell& cell) {
 /// else.
 template <class CellOf>
 std::vector<Index> sorted_along_curve(std::size_t count, int threads, CellOf cell_of) {
-  // The upper bits of the key and the number in one word, sorted in four passes by 9 bits.
+  // The upper bits of the key and the number in one word, sorted in four passes by 9 bits, or where
+  // there are fewer words than digits, by comparing.
   constexpr int digit = 9, passes = 4;
   const int key_bits = count <= std::size_t{1} << 28 ? 36 : 32;
   const int shift = 64 - key_bits;
@@ -68,17 +69,18 @@ std::vector<Index> sorted_along_curve(std::size_t count, int threads, CellOf cel
       threads_for(threads) == 1 ? std::max<std::size_t>(count, 1) : building_block;
   std::vector<Digits> at(std::max<std::size_t>((count + block - 1) / block, 1));
   std::array<Digits, passes> of_all{};
-  const bool in_one = at.size() == 1;
+  const bool in_one = at.size() == 1, few = count < std::size_t{1} << digit;
   const auto over = [&](const auto& work) { for_blocks(count, block, threads, {}, work); };
   over([&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       words[i] = coarse_curve_key(cell_of(i)) >> (36 - key_bits) << shift | i;
-      if (in_one)
+      if (in_one && !few)
         for (int pass = 0; pass < passes; ++pass)
           ++of_all[static_cast<std::size_t>(pass)][place(words[i], pass)];
     }
   });
-  for (int pass = 0; pass < passes; ++pass) {
+  if (few) std::sort(words.begin(), words.end());
+  for (int pass = 0; pass < passes && !few; ++pass) {
     if (in_one)
       at[0] = of_all[static_cast<std::size_t>(pass)];
     else

@@ -37,7 +37,7 @@ Team::Team(const OpenMP& executor)
   if (executor.chunk == 0) throw UsageError("the chunk must be >= 1");
   if (size_ > 0) return;
 #if defined(PLEXWAY_TEAM_OF_THREADS)
-  size_ = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
+  size_ = threads_for(0);
 #elif defined(PLEXWAY_CORE_OPENMP)
   size_ = std::min(omp_get_max_threads(), most);
 #endif

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include <plexway/complex/blocks.hpp>
 #include <plexway/executors.hpp>
 #include <plexway/executors/piece_ranks.hpp>
 
@@ -21,10 +22,7 @@ namespace plexway {
 /// alone, and lets the others go. Waits without sleeping at first, as rounds are short.
 class Gate {
  public:
-  explicit Gate(int threads) {
-    const unsigned cores = std::thread::hardware_concurrency();
-    patience_ = cores == 0 || static_cast<unsigned>(threads) <= cores ? 2000 : 0;
-  }
+  explicit Gate(int threads) : patience_(threads <= threads_for(0) ? 2000 : 0) {}
 
   /// For all but the first of so many threads.
   void pass(int threads) {

@@ -247,7 +247,11 @@ TEST_CASE("any domain: a surface is solved on the triangles that pay") {
   const PointSource target = PointSource::in(9, {0.3, 0.3, 0.4});
   const auto to = shape.position(target);
   const double straight = std::hypot(to[0] - at[0], to[1] - at[1]);
-  CHECK(paths.trace(target).length == Approx(straight).epsilon(1e-6));
+  const Path path = paths.trace(target);
+  CHECK(path.length == Approx(straight).epsilon(1e-13));
+  CHECK(path.positions.front() == to);
+  for (std::size_t i = 0; i < path.points.size(); ++i)
+    CHECK(path.points[i].simplex < shape.simplices());
   CHECK(paths.at(target) == Approx(straight).epsilon(1e-5));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -24,12 +25,16 @@ template <class Real>
 [[nodiscard]] Real crossing(const Window<Real>& u, const Window<Real>& w, Real low, Real high,
                             Real f_low, Real f_high) {
   using L = kernel::Lanes<Real>;
+  constexpr int few = 2, most = 16;
+  const Real near = (high - low) / 1024;
   L ends(low, f_low, high, f_high);
+  Real f = 0;
   for (int i = 0;; ++i) {
     const Real t = ends[1] / (ends[1] - ends[3]);
     const Real x = ends[0] + (ends[2] - ends[0]) * (t >= 0 && t <= 1 ? t : Real(0.5));
-    if (i == 2) return x;
-    const Real f = u.at(x) - w.at(x);
+    // Few will do, but not beside a source that is almost on the edge.
+    if (i >= few && (std::abs(f) <= near || i == most)) return x;
+    f = u.at(x) - w.at(x);
     ends = select(L(f * ends[1]) > L(Real(0)), L(x, f, ends[2], ends[3] / 2),
                   L(ends[0], ends[1] / 2, x, f));
   }
