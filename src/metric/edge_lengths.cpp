@@ -46,7 +46,7 @@ Point step(const Point& a, const Point& b) { return {b[0] - a[0], b[1] - a[1], b
   throw InputError(std::string(what) + " " + std::to_string(number) +
                    ": its tensor gives the step (" + std::to_string(d[0]) + ", " +
                    std::to_string(d[1]) + ", " + std::to_string(d[2]) +
-                   ") no positive tensor_length; tensors must be positive definite");
+                   ") no positive length; tensors must be positive definite");
 }
 
 // An edge between points at the same place has no length under any tensor.
@@ -184,7 +184,7 @@ class Measure {
       auto found = std::upper_bound(given.begin(), given.end(), key(a, b),
                                     [](std::uint64_t k, const auto& row) { return k < row.first; });
       if (found == given.begin() || (--found)->first != key(a, b))
-        throw InputError("no tensor_length is given for the edge " + std::to_string(a) + " - " +
+        throw InputError("no length is given for the edge " + std::to_string(a) + " - " +
                          std::to_string(b) + " of " + std::string(Ends<Corners>::simplex) + " " +
                          std::to_string(s));
       return found->second;
@@ -203,7 +203,7 @@ class Measure {
         if (!std::isfinite(l) || l < 0)
           throw InputError("the edge " + std::to_string(a) + " - " + std::to_string(b) + " of " +
                            std::string(Ends<Corners>::simplex) + " " + std::to_string(s) +
-                           ": its tensor_length is negative or not finite");
+                           ": its length is negative or not finite");
         rows_[s][e] = l;
       }
   }
