@@ -76,6 +76,8 @@ class StraightLines {
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
+  /// So many lines are measured one after the other: nothing is allocated.
+  static constexpr std::size_t few = 8;
 
   // From one source to any vertex.
   struct Line {
@@ -156,7 +158,11 @@ class StraightLines {
   [[nodiscard]] double least_line(std::size_t v, const Line& known) const {
     const std::array<double, 3>& p = positions_[v];
     double least = known.length(p);
-    if (count_ == 1) return least;
+    if (count_ <= few) {
+      for (Index n = 0; n < count_; ++n)
+        if (n != known.source) least = std::min(least, Line(*this, n).length(p));
+      return least;
+    }
     std::call_once(grown_, [&] {
       std::vector<Box<4>> boxes;
       for (Index n = 0; n < count_; ++n) boxes.push_back(Line(*this, n).box());
