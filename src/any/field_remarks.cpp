@@ -10,6 +10,7 @@
 
 #include "any/bent_crossings.hpp"
 #include "any/cloud_words.hpp"
+#include "any/collapsed.hpp"
 #include "any/rim_detours.hpp"
 #include "any/spelling.hpp"
 #include "any/violations.hpp"
@@ -108,6 +109,9 @@ std::vector<Remark> domain_remarks(const AnyDomain& solver, Reader reader) {
   };
   const auto said = [&](Advice advice) { return std::string(spelled(advice, reader)); };
   const AnyShape& domain = solver.shape();
+  if (std::string left_out = collapsed_sentence(domain); !left_out.empty())
+    remark(std::move(left_out));
+  for (const std::string& note : domain.report().notes) remark(note, false);
   if (const MeasuredLengths* lengths = solver.lengths(); lengths != nullptr && lengths->smoothed)
     remark(smoothed_sentence() + said(Advice::meant));
   if (std::string broken = violations_sentence(solver); !broken.empty()) remark(std::move(broken));

@@ -14,7 +14,6 @@ namespace plexway {
 namespace {
 
 void check(const Mask& mask, const AnyShape& shape) {
-  support(Purpose::masks, shape.kind()).require();
   if (mask.closed_vertices().size() != shape.vertices() ||
       mask.closed_simplices().size() != shape.simplices())
     throw UsageError("a mask of " + std::to_string(mask.closed_vertices().size()) +
@@ -77,6 +76,7 @@ Source OpenSimplices::inside(const Source& source) const {
 }
 
 AnyShape AnyShape::open_part(const Mask& mask) const {
+  support(Purpose::masks, kind()).require();
   check(mask, *this);
   const std::vector<std::array<double, 3>> places(positions().begin(), positions().end());
   const MeasuredLengths* const own = lengths();

@@ -11,6 +11,7 @@
 #include <plexway/apps/mixed_path_field.hpp>
 #include <plexway/error.hpp>
 
+#include "any/collapsed.hpp"
 #include "any/kept_build.hpp"
 #include "any/make_complex.hpp"
 #include "any/mixed_domain.hpp"
@@ -363,6 +364,25 @@ std::shared_ptr<Prepared> prepare_simplices(const AnyShape& shape, const Mask* m
   });
 }
 
+// What a mask leaves of a mixed domain, and of the speeds of its simplices, if there are some.
+MixedShape open_mixed(const MixedShape& all, const Mask& mask, std::vector<double>& speeds) {
+  MixedShape open = all;
+  std::vector<double> kept;
+  std::size_t number = 0;
+  const auto leave = [&](auto& rows) {
+    std::erase_if(rows, [&](const auto& corners) {
+      const std::size_t s = number++;
+      const bool is_open = mask.is_open(corners, s);
+      if (is_open && !speeds.empty()) kept.push_back(speeds[s]);
+      return !is_open;
+    });
+  };
+  for (MixedShape::Part& part : open.parts)
+    leave(part.edges), leave(part.triangles), leave(part.tets);
+  speeds = std::move(kept);
+  return open;
+}
+
 template <class Real>
 std::shared_ptr<Prepared> prepare_as(const AnyShape& shape, const BuildOptions& options) {
   const MeasuredLengths* const lengths = options.lengths ? options.lengths.get() : shape.lengths();
@@ -373,9 +393,11 @@ std::shared_ptr<Prepared> prepare_as(const AnyShape& shape, const BuildOptions& 
         if constexpr (std::is_same_v<Data, io::Triangles>) {
           return std::make_shared<PreparedSurface<Real>>(shape, options, lengths);
         } else if constexpr (std::is_same_v<Data, MixedShape>) {
-          return std::make_shared<PreparedMixed<Real>>(
-              shape, data, lengths == nullptr ? std::span<const double>() : lengths->speeds,
-              nullptr);
+          std::vector<double> speeds = lengths == nullptr ? std::vector<double>() : lengths->speeds;
+          if (making.mask == nullptr)
+            return std::make_shared<PreparedMixed<Real>>(shape, data, speeds, nullptr);
+          const MixedShape open = open_mixed(data, *making.mask, speeds);
+          return std::make_shared<PreparedMixed<Real>>(shape, open, speeds, making.mask);
         } else if constexpr (std::is_same_v<Data, SimplexShape>) {
           switch (data.dimension) {
             case 1:
@@ -437,7 +459,10 @@ std::shared_ptr<Prepared> open_as(const AnyShape& shape, const KeptBuild& kept) 
 
 }  // namespace
 
-std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOptions& options) {
+std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOptions& asked) {
+  BuildOptions options = asked;
+  if (asked.mask) support(Purpose::masks, shape.kind()).require();
+  options.mask = without_collapsed(shape, asked.mask);
   if (on_other_triangles(options.triangulation))
     support(Purpose::triangulations, shape.kind()).require();
   if (options.lengths) support(Purpose::metrics, shape.kind()).require();

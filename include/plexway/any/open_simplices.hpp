@@ -16,7 +16,7 @@ namespace plexway {
 /// that are open (inside), which are all that a complex is built of. 9 bytes a simplex or vertex.
 class OpenSimplices {
  public:
-  /// Throws UsageError for a mask of another size and a cloud or mixed domain, InputError where
+  /// Throws UsageError for a mask of another size, InputError where
   /// nothing is open. Cost: linear.
   OpenSimplices(const Mask& mask, const AnyShape& shape);
 

@@ -18,6 +18,7 @@
 #include "any/cloud_words.hpp"
 #include "any/field_remarks.hpp"
 #include "any/fill.hpp"
+#include "any/info/info_report.hpp"
 #include "any/info/rank_counts.hpp"
 #include "any/info/solve_words.hpp"
 #include "any/inside_field.hpp"
@@ -76,6 +77,7 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const AnyDoma
   add_accuracy(domain.kind(), field.accuracy(), field.statistics(), json);
   if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(field.triangulation);
   add_metric(command.metric, lengths, solver.refracting_edges(), json);
+  add_file_report(domain, json);
   if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
   if (const CloudShape* cloud = domain.cloud()) {
     json["points_in_file"] = cloud->points_in_file;
@@ -97,6 +99,7 @@ Table to_table(const DistanceCommand& command, const Domain& domain, const AnyDo
             counted(domain.vertices(), "vertices") + ", " +
                 counted(solver.simplices(), domain.simplex_name()) + ", " +
                 counted(solver.components(), "components"));
+  add_file_report(domain, table);
   if (!domain.level_set_note().empty()) table.add("voxels", domain.level_set_note());
   add_metric(command.metric, lengths, solver.refracting_edges(), table);
   if (domain.cloud() != nullptr && !kept_points(*domain.cloud()).empty())
