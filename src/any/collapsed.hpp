@@ -1,9 +1,8 @@
 #pragma once
 
-#include <memory>
 #include <string>
 
-#include <plexway/complex/mask.hpp>
+#include <plexway/any/open_simplices.hpp>
 
 #include "any/shape_state.hpp"
 
@@ -16,10 +15,5 @@ void find_collapsed(AnyShape::State& state);
 
 /// "2 triangles have a corner twice and are left out, 17 is the first"; empty where none has.
 [[nodiscard]] std::string collapsed_sentence(const AnyShape& shape);
-
-/// What is open of a shape: what `mask` leaves (null: all) but such simplices. Throws InputError
-/// where nothing is left.
-[[nodiscard]] std::shared_ptr<const Mask> without_collapsed(const AnyShape& shape,
-                                                            std::shared_ptr<const Mask> mask);
 
 }  // namespace plexway

@@ -364,25 +364,6 @@ std::shared_ptr<Prepared> prepare_simplices(const AnyShape& shape, const Mask* m
   });
 }
 
-// What a mask leaves of a mixed domain, and of the speeds of its simplices, if there are some.
-MixedShape open_mixed(const MixedShape& all, const Mask& mask, std::vector<double>& speeds) {
-  MixedShape open = all;
-  std::vector<double> kept;
-  std::size_t number = 0;
-  const auto leave = [&](auto& rows) {
-    std::erase_if(rows, [&](const auto& corners) {
-      const std::size_t s = number++;
-      const bool is_open = mask.is_open(corners, s);
-      if (is_open && !speeds.empty()) kept.push_back(speeds[s]);
-      return !is_open;
-    });
-  };
-  for (MixedShape::Part& part : open.parts)
-    leave(part.edges), leave(part.triangles), leave(part.tets);
-  speeds = std::move(kept);
-  return open;
-}
-
 template <class Real>
 std::shared_ptr<Prepared> prepare_as(const AnyShape& shape, const BuildOptions& options) {
   const MeasuredLengths* const lengths = options.lengths ? options.lengths.get() : shape.lengths();
@@ -396,8 +377,14 @@ std::shared_ptr<Prepared> prepare_as(const AnyShape& shape, const BuildOptions& 
           std::vector<double> speeds = lengths == nullptr ? std::vector<double>() : lengths->speeds;
           if (making.mask == nullptr)
             return std::make_shared<PreparedMixed<Real>>(shape, data, speeds, nullptr);
-          const MixedShape open = open_mixed(data, *making.mask, speeds);
-          return std::make_shared<PreparedMixed<Real>>(shape, open, speeds, making.mask);
+          std::size_t number = 0;
+          std::erase_if(speeds, [&](double) {
+            const std::size_t s = number++;
+            return !making.mask->is_open(shape.corners(s), s);
+          });
+          const AnyShape open = shape.open_part(*making.mask);
+          return std::make_shared<PreparedMixed<Real>>(shape, std::get<MixedShape>(open.data()),
+                                                       speeds, making.mask);
         } else if constexpr (std::is_same_v<Data, SimplexShape>) {
           switch (data.dimension) {
             case 1:

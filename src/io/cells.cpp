@@ -191,12 +191,21 @@ void CellTaker::add_solid(CellKind kind, std::span<const std::uint32_t> corners)
       faces.push_back({i, (i + 1) % n, n + (i + 1) % n, n + i});
     }
   }
+  const auto sorted = [](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    std::array<std::uint32_t, 3> triangle = {a, b, c};
+    std::sort(triangle.begin(), triangle.end());
+    return triangle;
+  };
   const auto lower = [&](std::size_t a, std::size_t b) { return corners[a] < corners[b]; };
   const std::uint32_t apex = *std::min_element(corners.begin(), corners.end());
   const std::size_t first = cells_.tets.size();
   double volume = 0;
   for (auto& face : faces) {
     std::rotate(face.begin(), std::min_element(face.begin(), face.end(), lower), face.end());
+    const auto at = [&](std::size_t i) { return corners[face[i]]; };
+    if (face.size() == 4 && at(0) != at(1) && at(1) != at(2) && at(2) != at(3) && at(3) != at(0))
+      for (const std::size_t tip : {0, 2})
+        halves_.push_back(sorted(corners[face[1]], corners[face[3]], corners[face[tip]]));
     if (corners[face[0]] == apex) continue;
     for (std::size_t i = 2; i < face.size(); ++i) {
       const std::array<std::uint32_t, 4> tet = {apex, corners[face[0]], corners[face[i - 1]],
@@ -219,7 +228,20 @@ void CellTaker::add_solid(CellKind kind, std::span<const std::uint32_t> corners)
       std::swap(cells_.tets[t][2], cells_.tets[t][3]);
 }
 
-void CellTaker::finish(std::string_view name) const {
+void CellTaker::finish(std::string_view name) {
+  std::sort(halves_.begin(), halves_.end());
+  for (std::size_t t = 0; t < cells_.tets.size() && !halves_.empty(); ++t)
+    for (std::size_t out = 0; out < 4; ++out) {
+      auto tet = cells_.tets[t];
+      std::swap(tet[out], tet[3]);
+      std::sort(tet.begin(), tet.begin() + 3);
+      if (std::binary_search(halves_.begin(), halves_.end(), std::array{tet[0], tet[1], tet[2]}))
+        throw InputError(std::string(name) + ": the triangle of vertices " +
+                         std::to_string(tet[0]) + ", " + std::to_string(tet[1]) + " and " +
+                         std::to_string(tet[2]) +
+                         " is half a face of a hexahedron or prism that is cut along the other "
+                         "diagonal: they need a pyramid between, or save it as tetrahedra");
+    }
   if (!refused_.passed_over.empty())
     throw InputError(std::string(name) + ": has " + refused_.passed_over_text() +
                      ", which are not read: a domain without them would have holes");

@@ -64,14 +64,16 @@ class CellTaker {
   [[nodiscard]] bool add(CellKind kind, std::span<const std::uint32_t> corners);
   /// Cells that cannot be taken.
   void refuse(std::string_view what, std::uint64_t count = 1) { refused_.pass_over(what, count); }
-  /// Throws InputError where there were some, since a domain without them would have holes.
-  void finish(std::string_view name) const;
+  /// Throws InputError where there were some, since a domain without them would have holes, and
+  /// where a tetrahedron meets half a face of a cell that is cut along the other diagonal.
+  void finish(std::string_view name);
 
  private:
   void add_solid(CellKind kind, std::span<const std::uint32_t> corners);
 
   Mixed& cells_;
   FileReport refused_;
+  std::vector<std::array<std::uint32_t, 3>> halves_;  ///< of faces, by the diagonals not taken
 };
 
 /// Of what a file holds, what has that kind; the rest is passed over. Throws InputError where there

@@ -53,7 +53,7 @@ struct CellSection {
 
 class Medit {
  public:
-  Medit(std::string_view text, std::string_view name) : in_(TextScanner(text, name)) {}
+  Medit(std::string_view text, std::string_view name) : name_(name), in_(TextScanner(text, name)) {}
 
   Mixed read() {
     std::string_view keyword = in_.word();
@@ -63,6 +63,7 @@ class Medit {
     for (keyword = in_.word(); !keyword.empty() && keyword != "End";) keyword = section(keyword);
     if (!has_vertices_) in_.fail("the file ends without a section Vertices");
     for (CellSection& cells : cell_sections_) read_cells(cells);
+    taker_.finish(name_);
     return std::move(cells_);
   }
 
@@ -134,6 +135,7 @@ class Medit {
     }
   }
 
+  std::string_view name_;
   TextValues in_;
   Mixed cells_;
   CellTaker taker_{cells_};

@@ -76,18 +76,22 @@ class PointTable {
       line = trimmed(line);
       // A comment may name the columns.
       const std::size_t mark = line.starts_with("//") ? 2 : line.find_first_of("#%") == 0 ? 1 : 0;
-      if (mark != 0 && columns_ == 0) named_ = split(line.substr(mark));
-      if (mark == 0) fields = split(line.substr(0, line.find('#')));
-      if (mark == 0 && !fields.empty()) return true;
+      line = trimmed(mark != 0 ? line.substr(mark) : line.substr(0, line.find('#')));
+      if (mark != 0 && columns_ == 0) named_ = split(line, separator_of(line));
+      if (mark != 0 || line.empty()) continue;
+      if (columns_ == 0) separator_ = separator_of(line);
+      fields = split(line, separator_);
+      return true;
     }
     return false;
   }
 
-  Fields split(std::string_view line) const {
-    line = trimmed(line);
-    char separator = separator_;
-    for (const char one : {';', ',', '\t', ' '})
-      if (separator == 0 && (one == ' ' || line.find(one) != line.npos)) separator = one;
+  static char separator_of(std::string_view line) {
+    for (const char one : {';', ',', '\t'})
+      if (line.find(one) != line.npos) return one;
+    return ' ';
+  }
+  static Fields split(std::string_view line, char separator) {
     Fields fields;
     for (std::size_t from = 0; from <= line.size() && !line.empty();) {
       const std::size_t end = separator == ' '
@@ -177,7 +181,6 @@ class PointTable {
     const auto position = row(0);
     if (at_[3] != absent) points_.normals.push_back(row(3));
     points_.positions.push_back(position);
-    separator_ = separator_ != 0 ? separator_ : ' ';
   }
 
   void passed_over(const std::string& what) {
@@ -215,7 +218,7 @@ class PointTable {
   std::optional<std::uint64_t> promised_;
   std::size_t line_ = 0, columns_ = 0;
   bool guessed_ = false;  ///< what the columns are
-  char separator_ = 0, newline_ = '\n';
+  char separator_ = ' ', newline_ = '\n';
   std::array<std::size_t, 6> at_ = {absent, absent, absent, absent, absent, absent};
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <plexway/any/open_simplices.hpp>
 #include <plexway/any/support.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/complex/point_cloud.hpp>
@@ -171,8 +172,9 @@ void run_distance(DistanceCommand command) {
     check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
   check_isolines(command.isolines, domain);
   const std::shared_ptr<const Mask> mask = read_mask(command.mask, domain);
+  const std::shared_ptr<const Mask> open = without_collapsed(domain, mask);
   const std::vector<Source> sources =
-      locate_source_sets(domain, arguments, !command.metric.text.empty(), mask.get());
+      locate_source_sets(domain, arguments, !command.metric.text.empty(), open.get());
   require_open(mask.get(), domain, sources);
   const std::vector<PointSource> points = as_points(sources);
   if (have_shapes(domain, sources)) {
@@ -235,9 +237,9 @@ void run_distance(DistanceCommand command) {
 
   // What is written and drawn is what is open.
   const bool shown_open =
-      mask != nullptr &&
+      open != nullptr &&
       (!command.out.empty() || !command.isolines.out.empty() || command.picture.wanted());
-  const Domain shown = shown_open ? domain.open_part(*mask) : domain;
+  const Domain shown = shown_open ? domain.open_part(*open) : domain;
   const bool plain = command.out == "-";
   const std::vector<double> isovalues = isoline_values(command.isolines, distance);
   if (command.writes_parts()) {
@@ -281,10 +283,11 @@ void run_distance(DistanceCommand command) {
   }
   progress.clear();
   const auto check_reached = [&] {
-    if (outcome.beside_source == 0)
-      throw NothingReached(command.input +
-                           ": nothing reached: no vertex but the source itself has "
-                           "a finite distance");
+    if (outcome.beside_source > 0) return;
+    const std::string apart = apart_sentence(domain, outcome.from);
+    throw NothingReached(
+        command.input + ": nothing reached: " +
+        (apart.empty() ? "no vertex but the source itself has a finite distance" : apart));
   };
   if (!command.leads()) return check_reached();
 
