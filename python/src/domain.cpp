@@ -16,7 +16,8 @@ namespace plexway::python {
 
 Domain::Domain(AnyShape shape, BuildOptions options)
     : any_(std::move(shape), options), options_(std::move(options)), open_(any_.shape()) {
-  if (const auto mask = without_collapsed(shape(), options_.mask)) open_ = shape().open_part(*mask);
+  if (const auto mask = without_collapsed(any_.shape(), options_.mask))
+    open_ = any_.shape().open_part(*mask);
   options_.progress = {};  // it was the caller's while building
 }
 

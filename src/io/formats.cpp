@@ -206,12 +206,21 @@ constexpr std::array<std::array<View, 3>, 10> others = {{
     {".e57", "", "save the points as .ply or .las, with CloudCompare or PDAL"},
 }};
 
+// None where it cannot be read, which is said only if its name says nothing.
+View first_bytes(const OpenedFile& file) {
+  try {
+    return file.bytes();
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
 [[noreturn]] void refuse(const OpenedFile& file) {
   const std::string &name = file.name(), &extension = file.extension();
   if (extension.empty() && file.is_standard_input())
     throw InputError(name + ": standard input has no extension: say what it is, as in ply:-");
   for (const auto& [other, first, cure] : others)
-    if (extension == other || (!first.empty() && file.bytes().starts_with(first)))
+    if (extension == other || (!first.empty() && first_bytes(file).starts_with(first)))
       throw InputError(name + ": a " + std::string(other) + " is not read; " + std::string(cure));
   if (extension == ".pvtu")
     throw InputError(name +
@@ -224,6 +233,7 @@ constexpr std::array<std::array<View, 3>, 10> others = {{
       list.remove_prefix(std::min(known.back().size() + 1, list.size()));
     }
   const std::string hint = did_you_mean(extension, known);
+  if (hint.empty()) static_cast<void>(file.bytes());
   throw InputError(name + ": " +
                    (extension.empty() ? "no extension" : "unknown extension " + quote(extension)) +
                    ", and its first bytes do not tell what it is" + hint +
@@ -236,7 +246,7 @@ const Row& row_of(const OpenedFile& file) {
   for (const bool by_name : {tells, !tells})
     for (const Row& row : table)
       if (by_name ? has_extension(row, file.extension())
-                  : row.is_this != nullptr && row.is_this(file.bytes()))
+                  : row.is_this != nullptr && row.is_this(first_bytes(file)))
         return row;
   refuse(file);
 }
