@@ -59,7 +59,10 @@ std::optional<Data> data_of(const std::string& file, io::Mixed cells,
 // What a file holds but points, nothing for these.
 std::optional<Data> read_data(const std::string& file, std::optional<DomainKind> asked,
                               io::FileReport& report) {
-  switch (io::format_of(file).reader) {
+  const io::Format format = io::format_of(file);
+  // A surface is no mixed domain.
+  if (asked == DomainKind::mixed && !format.may_hold(DomainKind::solid)) asked.reset();
+  switch (format.reader) {
     case io::FileReader::edges: {
       io::Edges wires = io::read_edges(file);
       report = std::move(wires.report);
@@ -363,8 +366,7 @@ AnyShape AnyShape::read(std::span<const std::filesystem::path> files, double tol
                       .wanted = DomainKind::mixed,
                       .form = form_of(file)});
     io::FileReport report;
-    const bool mixed = io::format_of(file).may_hold(DomainKind::solid);
-    auto data = read_data(file, mixed ? std::optional(DomainKind::mixed) : std::nullopt, report);
+    auto data = read_data(file, DomainKind::mixed, report);
     if (!data) check_part(file, {.held = DomainKind::cloud, .wanted = DomainKind::mixed});
     std::visit([&](auto&& part) { append(std::move(part), file, shape); }, *std::move(data));
     state.report.split_polygons += report.split_polygons;
