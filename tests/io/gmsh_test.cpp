@@ -155,9 +155,9 @@ TEST_CASE("gmsh: what is wrong is named with its line") {
   CHECK(gmsh_complaint(replaced(ascii4(elements4), "\n3 6 1 9", "\n3 7 1 9")) ==
         "mesh:25: the blocks hold 6 nodes, but the section states 7");
   CHECK(gmsh_complaint(replaced(ascii4(elements4), "3 3 1 9", "3 2 1 9")) ==
-        "mesh:35: the blocks hold more than the 2 elements that the section states");
+        "mesh:32: the blocks hold more than the 2 elements that the section states");
   CHECK(gmsh_complaint(replaced(ascii4(elements4), "3 3 1 9", "2 3 1 9")) ==
-        "mesh:35: the blocks hold 2 elements, but the section states 3");
+        "mesh:32: the blocks hold 2 elements, but the section states 3");
   CHECK(gmsh_complaint(replaced(ascii2(elements2), "$Nodes", "$ParametricNodes")) ==
         "mesh:8: $ParametricNodes are not read; save the file without parametric coordinates");
   CHECK_THAT(gmsh_complaint(replaced(ascii2(elements2), "$PhysicalNames", "$Names")),
