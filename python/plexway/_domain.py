@@ -132,7 +132,8 @@ class Domain:
             kind, dimension, vertices, simplices, components, precision, bytes (held beside the
             positions), build_seconds, and where they mean something: file, bounds, mean_edge,
             triangulation, refracting_edges, violations (simplices whose lengths no flat one has),
-            cloud.
+            cloud; and dropped_simplices (with a vertex twice: domains are built without), of files
+            also split_polygons and split_cells, cut into triangles and tetrahedra, and passed_over.
         """
         native = self._native
         told: Dict[str, Any] = {
@@ -144,6 +145,7 @@ class Domain:
             "precision": "double" if native.double else "single",
             "bytes": native.bytes,
             "build_seconds": native.build_seconds,
+            **native.file_report,
         }
         if native.file:
             told["file"] = native.file
@@ -268,7 +270,10 @@ class Domain:
             The place of the nearest source in the list; -1 where no path leads.
         """
         arguments = _arguments(threads, executor, radius, visibility, accuracy)
-        located_sources = located(self, sources)
+        located_sources = located(self, sources, none_is_well=True)
+        if not located_sources:
+            n = self.vertex_count
+            return np.full(n, _INFINITY, self.dtype), np.full(n, -1, np.int32)
         with Progress(progress, "solving") as report:
             found, label, _, doubts = _plexway.solve(
                 self._native, located_sources, arguments, True, False, report
@@ -511,7 +516,10 @@ class Domain:
         _check_near(radius, count)
         arguments = _arguments(threads, None, _INFINITY, "saddles", accuracy, many=True)
         every = np.arange(self.vertex_count) if sources is None else sources
-        located_sources = located(self, every)
+        located_sources = located(self, every, none_is_well=True)
+        if not located_sources:
+            width = self.vertex_count if columns is None else len(plain(columns, "columns"))
+            return csr_matrix((0, width), dtype=self.dtype)
         with Progress(progress, "solving") as report:
             *rows, doubts = _plexway.near(
                 self._native,

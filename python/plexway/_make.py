@@ -54,8 +54,8 @@ def read(
     Parameters
     ----------
     *files : path
-        .obj, .ply, .off, .stl, .mesh, .msh, .vtk, .vtu, .node, .edges, .xyz, .pcd, .vdb and others;
-        the extension tells the kind. Several make a `Mixed`.
+        {formats}. What may hold several kinds is what has most dimensions. Several files make a
+        `Mixed`.
     kind : {'surface', 'solid', 'wireframe', 'simplices', 'cloud', 'mixed'}, optional
         What to take it as: a surface may be filled, unravelled to its edges, or taken as a cloud.
     tolerance : float
@@ -66,7 +66,8 @@ def read(
         As in `Surface`; 'regions:3,7' leaves out these regions of a .msh, .vtu or .vtk.
     **options
         Of clouds: k, neighbour_radius, max_normal_angle, smooth, denoise, deviations, voxel. Of
-        surfaces that are filled: max_volume. Of level sets: voxel, grid, repair.
+        surfaces that are filled: max_volume. Of level sets: voxel, grid, repair. Of all: strict, to
+        refuse what would be left out, guessed or mended, such as a face with a corner twice.
 
     Returns
     -------
@@ -80,7 +81,7 @@ def read(
     NotBuilt
         For a format that this build has no library for.
     """
-    known = "k neighbour_radius max_normal_angle smooth denoise deviations voxel grid repair"
+    known = "k neighbour_radius max_normal_angle smooth denoise deviations voxel grid repair strict"
     if not files:
         raise TypeError("read: no file was given")
     for name in options:
@@ -100,6 +101,10 @@ def read(
         names = ("k", "neighbour_radius", "max_normal_angle", "smooth")
         made._neighbours = {name: options[name] for name in names if name in options}
     return made
+
+
+if read.__doc__:
+    read.__doc__ = read.__doc__.replace("{formats}", _plexway.known_formats())
 
 
 def read_labels(file: Union[str, os.PathLike[str]], vertices: int) -> Array:

@@ -10,6 +10,7 @@
 
 #include <plexway/any/mask_text.hpp>
 #include <plexway/error.hpp>
+#include <plexway/io/formats.hpp>
 #include <plexway/io/labels.hpp>
 
 #include "arrays.hpp"
@@ -286,6 +287,7 @@ std::shared_ptr<Domain> read(const std::vector<std::filesystem::path>& files, do
   reading.cloud = preparation_of(given);
   if (given.contains("voxel")) reading.volume.voxel = given["voxel"].cast<std::optional<double>>();
   if (given.contains("repair")) reading.volume.repair = given["repair"].cast<bool>();
+  if (given.contains("strict")) reading.strict = given["strict"].cast<bool>();
   if (given.contains("grid")) reading.volume.grid = given["grid"].cast<std::string>();
   if (given.contains("max_volume")) reading.fill.max_volume = given["max_volume"].cast<double>();
   reading.progress.share = watch.of_share();
@@ -305,6 +307,7 @@ void bind_build(py::module_& module) {
   module.def("from_points", &from_points);
   module.def("from_parts", &from_parts);
   module.def("read", &read);
+  module.def("known_formats", &io::known_formats);
   module.def("read_labels", [](const std::filesystem::path& file, std::size_t vertices) {
     return owned(io::read_vertex_labels(file, vertices));
   });

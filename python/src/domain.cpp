@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include <plexway/any/open_simplices.hpp>
 #include <plexway/complex/point_cloud.hpp>
 #include <plexway/error.hpp>
 
@@ -14,9 +15,9 @@
 namespace plexway::python {
 
 Domain::Domain(AnyShape shape, BuildOptions options)
-    : any_(std::move(shape), options),
-      options_(std::move(options)),
-      open_(options_.mask ? any_.shape().open_part(*options_.mask) : any_.shape()) {
+    : any_(std::move(shape), options), options_(std::move(options)), open_(any_.shape()) {
+  if (const auto mask = without_collapsed(any_.shape(), options_.mask))
+    open_ = any_.shape().open_part(*mask);
   options_.progress = {};  // it was the caller's while building
 }
 
@@ -260,6 +261,18 @@ void bind_domain(py::module_& module) {
       .def_property_readonly("measured",
                              [](const std::shared_ptr<Domain>& d) {
                                return lengths_of(d->options().lengths.get(), py::cast(d));
+                             })
+      .def_property_readonly("file_report",
+                             [](const Domain& d) {
+                               const io::FileReport& report = d.shape().report();
+                               py::dict told, passed_over;
+                               told["split_polygons"] = report.split_polygons;
+                               told["split_cells"] = report.split_cells;
+                               told["dropped_simplices"] = d.shape().collapsed().size();
+                               for (const auto& [what, count] : report.passed_over)
+                                 passed_over[what.c_str()] = count;
+                               told["passed_over"] = passed_over;
+                               return told;
                              })
       .def_property_readonly("remarks", [](const Domain& d) { return texts_of(told_of(d)); })
       .def_property_readonly("doubts", [](const Domain& d) { return doubts_of(told_of(d)); })

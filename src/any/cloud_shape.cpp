@@ -1,4 +1,5 @@
 #include <plexway/any/cloud_shape.hpp>
+#include <plexway/io/formats.hpp>
 
 #include <algorithm>
 #include <array>
@@ -115,9 +116,8 @@ bool all_point_to_one_side(const CloudShape& cloud) {
 }  // namespace
 
 bool is_cloud_file(const std::string& file) {
-  const std::string extension = io::InputName(file).extension;
-  return extension == ".xyz" || extension == ".csv" || extension == ".las" || extension == ".laz" ||
-         io::lower_extension(file) == ".pcd";
+  const io::FileReader reader = io::format_of(file).reader;
+  return reader == io::FileReader::points || reader == io::FileReader::cloud;
 }
 
 CloudFile read_cloud(const std::string& file) {

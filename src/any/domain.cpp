@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "any/collapsed.hpp"
 #include "any/inside.hpp"
 #include "any/kept_build.hpp"
 #include "any/prepared.hpp"
@@ -33,7 +34,9 @@ AnyDomain AnyDomain::masked(std::shared_ptr<const Mask> mask) const {
 
 void AnyDomain::keep(const std::filesystem::path& file) const {
   KeptOut out(file);
-  write_kept_shape(out, shape(), state_->options);
+  // Without what the complex leaves out.
+  const auto open = without_collapsed(shape(), nullptr);
+  write_kept_shape(out, open ? shape().open_part(*open) : shape(), state_->options);
   state_->prepared->keep(out);
   out.commit();
 }

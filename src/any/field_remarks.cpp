@@ -10,6 +10,7 @@
 
 #include "any/bent_crossings.hpp"
 #include "any/cloud_words.hpp"
+#include "any/collapsed.hpp"
 #include "any/rim_detours.hpp"
 #include "any/spelling.hpp"
 #include "any/violations.hpp"
@@ -73,12 +74,12 @@ FieldReach reach_of(std::span<const double> distance, const SourceList& sources)
 
 namespace {
 
-// Vertices in no simplex.
-std::size_t count_apart(const AnyShape& domain) {
+// Which vertices are in a simplex.
+std::vector<bool> used_in(const AnyShape& domain) {
   std::vector<bool> used(domain.vertices(), false);
   for (std::size_t s = 0; s < domain.simplices(); ++s)
     for (const auto v : domain.corners(s)) used[v] = true;
-  return static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+  return used;
 }
 
 // Why not all was reached.
@@ -91,7 +92,9 @@ std::string why_unreached(const AnyDomain& solver, Reader reader) {
   } else {
     why = "the " + std::string(kind_noun(domain.kind())) + " has " +
           counted(solver.components(), "components");
-    if (const std::size_t apart = count_apart(domain); apart > 0) {
+    const std::vector<bool> used = used_in(domain);
+    const auto apart = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+    if (apart > 0) {
       why.append(", ").append(counted(apart, "vertices")).append(apart == 1 ? " is" : " are");
       why.append(" in none of its ").append(domain.simplex_name());
     }
@@ -101,6 +104,30 @@ std::string why_unreached(const AnyDomain& solver, Reader reader) {
 
 }  // namespace
 
+std::string apart_sentence(const AnyShape& domain, std::span<const std::size_t> from) {
+  if (domain.cloud() != nullptr) return "";
+  const std::vector<bool> used = used_in(domain);
+  const auto apart =
+      std::find_if(from.begin(), from.end(), [&](std::size_t v) { return !used[v]; });
+  if (apart == from.end()) return "";
+  std::string text = "vertex " + std::to_string(*apart) + " is in none of the " +
+                     std::string(domain.simplex_name()) + ", so no path leads from it";
+  const auto at = domain.positions();
+  if (at.empty()) return text;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t nearest = used.size();
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (!used[v]) continue;
+    const auto &p = at[v], &q = at[*apart];
+    const double away = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+    if (away < least) least = away, nearest = v;
+  }
+  if (nearest < used.size())
+    text += "; the nearest that is in one is vertex " + std::to_string(nearest) + ", " +
+            short_number(least) + " away";
+  return text;
+}
+
 std::vector<Remark> domain_remarks(const AnyDomain& solver, Reader reader) {
   std::vector<Remark> remarks;
   const auto remark = [&](std::string text, bool doubtful = true) {
@@ -108,6 +135,9 @@ std::vector<Remark> domain_remarks(const AnyDomain& solver, Reader reader) {
   };
   const auto said = [&](Advice advice) { return std::string(spelled(advice, reader)); };
   const AnyShape& domain = solver.shape();
+  if (std::string left_out = collapsed_sentence(domain); !left_out.empty())
+    remark(std::move(left_out));
+  for (const std::string& note : domain.report().notes) remark(note, false);
   if (const MeasuredLengths* lengths = solver.lengths(); lengths != nullptr && lengths->smoothed)
     remark(smoothed_sentence() + said(Advice::meant));
   if (std::string broken = violations_sentence(solver); !broken.empty()) remark(std::move(broken));
@@ -244,6 +274,10 @@ std::vector<Remark> field_remarks(const AnyDomain& solver, const AnyField& field
   std::vector<Remark> remarks;
   const auto remark = [&](std::string text) { remarks.push_back({std::move(text)}); };
   const AnyShape& domain = solver.shape();
+  if (!(largest(field) > 0)) {
+    const auto from = reached_sources([&](Index v) { return field[v]; }, sources);
+    if (std::string apart = apart_sentence(domain, from); !apart.empty()) remark(std::move(apart));
+  }
   if (const CloudSummary* cloud = solver.cloud()) {
     const auto from = reached_sources([&](Index v) { return field[v]; }, sources);
     const RimDetours detours =

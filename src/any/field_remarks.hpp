@@ -21,6 +21,10 @@ struct FieldReach {
 };
 [[nodiscard]] FieldReach reach_of(std::span<const double> distance, const SourceList& sources);
 
+/// Of these vertices, from which nothing else is reached, the first that is in no simplex, and the
+/// nearest that is in one; empty where all are in one.
+[[nodiscard]] std::string apart_sentence(const AnyShape& domain, std::span<const std::size_t> from);
+
 /// The work of fields, whoever has their domain.
 struct FieldWork {
   const PropagateStatistics& statistics;  ///< a sum over the fields

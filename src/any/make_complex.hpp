@@ -82,7 +82,8 @@ TetMesh<Real> make_complex(const io::Tets& solid, const Making& making) {
 template <class Real>
 Wireframe<Real> make_complex(const io::Edges& wireframe, const Making& making) {
   const auto open = making.open(wireframe.edges);
-  if (making.lengths == nullptr && wireframe.lengths.empty()) return {wireframe.positions, open};
+  if (making.lengths == nullptr && wireframe.lengths.empty() && !wireframe.positions.empty())
+    return {wireframe.positions, open};
   return {wireframe.vertices, open,
           making.open(wireframe.edges,
                       making.lengths != nullptr ? making.lengths->edges : wireframe.lengths)};

@@ -14,7 +14,6 @@ namespace plexway {
 namespace {
 
 void check(const Mask& mask, const AnyShape& shape) {
-  support(Purpose::masks, shape.kind()).require();
   if (mask.closed_vertices().size() != shape.vertices() ||
       mask.closed_simplices().size() != shape.simplices())
     throw UsageError("a mask of " + std::to_string(mask.closed_vertices().size()) +
@@ -77,6 +76,7 @@ Source OpenSimplices::inside(const Source& source) const {
 }
 
 AnyShape AnyShape::open_part(const Mask& mask) const {
+  if (kind() != DomainKind::mixed) support(Purpose::masks, kind()).require();
   check(mask, *this);
   const std::vector<std::array<double, 3>> places(positions().begin(), positions().end());
   const MeasuredLengths* const own = lengths();
@@ -107,6 +107,17 @@ AnyShape AnyShape::open_part(const Mask& mask) const {
       open.lengths.insert(open.lengths.end(), first, first + static_cast<std::ptrdiff_t>(edges));
     }
     return AnyShape::simplices(std::move(open));
+  }
+  if (const auto* parts = std::get_if<MixedShape>(&data())) {
+    MixedShape open = *parts;
+    std::size_t number = 0;
+    const auto leave = [&](auto& simplices) {
+      std::erase_if(simplices,
+                    [&](const auto& corners) { return !mask.is_open(corners, number++); });
+    };
+    for (MixedShape::Part& part : open.parts)
+      leave(part.edges), leave(part.triangles), leave(part.tets);
+    return AnyShape::mixed(std::move(open));
   }
   const io::Edges& wire = std::get<io::Edges>(data());
   return wire.lengths.empty() ? AnyShape::wireframe(places, mask.open(wire.edges))

@@ -11,6 +11,7 @@
 #include <plexway/apps/mixed_path_field.hpp>
 #include <plexway/error.hpp>
 
+#include "any/collapsed.hpp"
 #include "any/kept_build.hpp"
 #include "any/make_complex.hpp"
 #include "any/mixed_domain.hpp"
@@ -372,9 +373,17 @@ std::shared_ptr<Prepared> prepare_as(const AnyShape& shape, const BuildOptions& 
         if constexpr (std::is_same_v<Data, io::Triangles>) {
           return std::make_shared<PreparedSurface<Real>>(shape, options, lengths);
         } else if constexpr (std::is_same_v<Data, MixedShape>) {
-          return std::make_shared<PreparedMixed<Real>>(
-              shape, data, lengths == nullptr ? std::span<const double>() : lengths->speeds,
-              nullptr);
+          std::vector<double> speeds = lengths == nullptr ? std::vector<double>() : lengths->speeds;
+          if (making.mask == nullptr)
+            return std::make_shared<PreparedMixed<Real>>(shape, data, speeds, nullptr);
+          std::size_t number = 0;
+          std::erase_if(speeds, [&](double) {
+            const std::size_t s = number++;
+            return !making.mask->is_open(shape.corners(s), s);
+          });
+          const AnyShape open = shape.open_part(*making.mask);
+          return std::make_shared<PreparedMixed<Real>>(shape, std::get<MixedShape>(open.data()),
+                                                       speeds, making.mask);
         } else if constexpr (std::is_same_v<Data, SimplexShape>) {
           switch (data.dimension) {
             case 1:
@@ -436,7 +445,10 @@ std::shared_ptr<Prepared> open_as(const AnyShape& shape, const KeptBuild& kept) 
 
 }  // namespace
 
-std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOptions& options) {
+std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOptions& asked) {
+  BuildOptions options = asked;
+  if (asked.mask) support(Purpose::masks, shape.kind()).require();
+  options.mask = without_collapsed(shape, asked.mask);
   if (on_other_triangles(options.triangulation))
     support(Purpose::triangulations, shape.kind()).require();
   if (options.lengths) support(Purpose::metrics, shape.kind()).require();

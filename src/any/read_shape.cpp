@@ -1,61 +1,29 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <system_error>
 #include <utility>
 
 #include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
+#include <plexway/io/formats.hpp>
 #include <plexway/io/mixed.hpp>
 
 #include "any/arguments/require.hpp"
+#include "any/collapsed.hpp"
 #include "any/fill.hpp"
 #include "any/kept_build.hpp"
 #include "any/openvdb_functions.hpp"
 #include "any/shape_state.hpp"
 #include "any/simplex_edges.hpp"
-#include "io/did_you_mean.hpp"
-#include "io/file_bytes.hpp"
 #include "io/input_name.hpp"
 
 namespace plexway {
 namespace {
 
-bool has_extension(const std::filesystem::path& file, std::span<const std::string_view> known) {
-  const std::string extension = io::InputName(file).extension;
-  return std::find(known.begin(), known.end(), extension) != known.end();
-}
-
-// Whether an .obj has a statement that starts with this letter.
-bool has_statement(const std::string& file, char letter) {
-  const io::FileBytes bytes(file);
-  for (std::string_view rest = bytes.view(); !rest.empty();) {
-    const std::string_view line = rest.substr(0, rest.find('\n'));
-    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-    const std::size_t at = line.find_first_not_of(" \t");
-    if (at != line.npos && line[at] == letter && at + 1 < line.size() &&
-        (line[at + 1] == ' ' || line[at + 1] == '\t'))
-      return true;
-  }
-  return false;
-}
-
 using Data = AnyShape::Data;
 
 // Those whose readers go back and forth, or look for a second file beside it.
 constexpr std::array<std::string_view, 4> tied_to_names = {".poly", ".smesh", ".vdb", ".pcd"};
-
-// An .obj may be either of two. Only one that cannot be read as a surface is looked at again.
-Data read_obj(const std::string& file, std::optional<DomainKind> asked) {
-  if (asked == DomainKind::wireframe && has_statement(file, 'l')) return io::read_edges(file);
-  try {
-    return io::read_triangles(file);
-  } catch (const InputError&) {
-    if (asked == DomainKind::surface || has_statement(file, 'f') || !has_statement(file, 'l'))
-      throw;
-  }
-  return io::read_edges(file);
-}
 
 MixedShape mixed_of(io::Mixed cells) {
   MixedShape shape;
@@ -68,61 +36,50 @@ MixedShape mixed_of(io::Mixed cells) {
   return shape;
 }
 
-// Of a file that may hold any kind, what has most dimensions.
-Data data_of(const std::string& file, io::Mixed cells) {
+// Of a file of cells what has most dimensions; nothing where there are points alone. Lines are
+// rather a wireframe than edges of triangles where files draw both.
+std::optional<Data> data_of(const std::string& file, io::Mixed cells,
+                            std::optional<DomainKind> asked, io::FileReport& report) {
+  report = std::move(cells.report);
+  if (asked == DomainKind::mixed) return mixed_of(std::move(cells));
+  const std::string extension = io::InputName(file).extension;
+  const bool draws = extension == ".obj" || extension == ".ply";
+  if (asked == DomainKind::wireframe && draws && !cells.edges.empty()) cells.triangles.clear();
+  if (!cells.tets.empty()) report.pass_over("triangles", cells.triangles.size());
+  if (!cells.tets.empty() || !cells.triangles.empty())
+    report.pass_over("lines", cells.edges.size());
   if (!cells.tets.empty()) return io::Tets{std::move(cells.positions), std::move(cells.tets)};
   if (!cells.triangles.empty())
     return io::Triangles{std::move(cells.positions), std::move(cells.triangles)};
-  if (!cells.edges.empty()) {
-    const std::size_t n = cells.positions.size();
-    return io::Edges{std::move(cells.positions), std::move(cells.edges), {}, n};
+  if (cells.edges.empty()) return std::nullopt;
+  const std::size_t n = cells.positions.size();
+  return io::Edges{std::move(cells.positions), std::move(cells.edges), {}, n};
+}
+
+// What a file holds but points, nothing for these.
+std::optional<Data> read_data(const std::string& file, std::optional<DomainKind> asked,
+                              io::FileReport& report) {
+  const io::Format format = io::format_of(file);
+  // A surface is no mixed domain.
+  if (asked == DomainKind::mixed && !format.may_hold(DomainKind::solid)) asked.reset();
+  switch (format.reader) {
+    case io::FileReader::edges: {
+      io::Edges wires = io::read_edges(file);
+      report = std::move(wires.report);
+      return wires;
+    }
+    case io::FileReader::simplices:
+      return io::read_simplices(file);
+    default:
+      return data_of(file, io::read_cells(file), asked, report);
   }
-  throw InputError(file + ": has points alone: no lines, triangles or tetrahedra");
 }
 
-Data read_mesh(const std::string& file, std::optional<DomainKind> asked) {
-  const bool triangles = has_extension(file, io::triangle_extensions());
-  const bool lines = has_extension(file, io::edge_extensions());
-  if (triangles && lines) return read_obj(file, asked);
-  if (triangles) return io::read_triangles(file);
-  if (lines) return io::read_edges(file);
-  if (asked == DomainKind::mixed && has_extension(file, io::mixed_extensions()))
-    return mixed_of(io::read_mixed(file));
-  if (has_extension(file, io::cell_extensions())) return data_of(file, io::read_cells(file));
-  if (has_extension(file, io::tet_extensions())) return io::read_tets(file);
-  if (io::InputName(file).extension == ".simplices") return io::read_simplices(file);
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    throw InputError(file + ": is a directory, not a file");
-  const std::string extension = io::InputName(file).extension;
-  if (extension.empty() && io::InputName(file).standard_input)
-    throw InputError(file + ": standard input has no extension: say what it is, as in ply:-");
-  if (extension == ".3mf" || extension == ".dae" || extension == ".fbx" || extension == ".step")
-    throw InputError(file + ": a " + extension +
-                     " is not read; save the surface as .stl, .ply or .glb");
-  if (extension == ".pvtu")
-    throw InputError(file +
-                     ": a .pvtu is read in parts, by ranks: mpirun -n 4 plexway-mpi distance " +
-                     file + " --in-parts ...");
-  static constexpr std::array<std::string_view, 25> known = {
-      ".obj", ".off", ".ply", ".stl", ".gii",       ".node",  ".ele",    ".mesh",  ".msh",
-      ".vtu", ".vtk", ".vtp", ".glb", ".gltf",      ".vdb",   ".poly",   ".smesh", ".edges",
-      ".xyz", ".pcd", ".csv", ".las", ".simplices", ".white", ".plexway"};
-  std::string hint = io::did_you_mean(extension, known);
-  throw InputError(
-      file + ": " + (extension.empty() ? "no extension" : "unknown extension '" + extension + "'") +
-      hint + (hint.empty() ? ";" : "") +
-      " known are .obj .off .ply .stl .vtp .glb .gltf for surfaces, .node .ele .mesh "
-      ".msh .vtu .vtk .poly .smesh .vdb for solids, .edges .obj for wireframes, .xyz "
-      ".csv .las .pcd "
-      ".ply for clouds; a .msh .vtu .vtk .vtp .glb is what it holds; .plexway is what is "
-      "prepared");
-}
-
-// A .ply is a cloud where it is asked to be one, or where it cannot be a surface.
+// A .ply is a cloud where it is asked to be one, or where it cannot be anything else: its normals
+// are wanted then.
 bool is_read_as_cloud(const std::string& file, std::optional<DomainKind> asked) {
   if (is_cloud_file(file)) return true;
-  if (asked == DomainKind::cloud) return has_extension(file, io::point_extensions());
+  if (asked == DomainKind::cloud) return io::InputName(file).extension == ".ply";
   return !asked && io::is_ply_cloud(file);
 }
 
@@ -239,6 +196,7 @@ class ShapeFile {
   }
   void take_level_set(bool surface);
   void fill();
+  void require_strict() const;
 
   std::string file_;
   const ReadOptions& options_;
@@ -262,7 +220,8 @@ AnyShape::State ShapeFile::read() {
     return kept;
   }
   // As in vdb:-.
-  if (has_extension(file_, tied_to_names) &&
+  if (std::find(tied_to_names.begin(), tied_to_names.end(), io::InputName(file_).extension) !=
+          tied_to_names.end() &&
       std::filesystem::path(file_).extension() != io::InputName(file_).extension)
     throw InputError(file_ + ": a " + io::InputName(file_).extension +
                      " must be a file with that extension: it is not read from end to end, or not "
@@ -271,17 +230,15 @@ AnyShape::State ShapeFile::read() {
   const Stopwatch loading;
   bool is_cloud = is_read_as_cloud(file_, asked);
   CloudFile points;
+  if (!is_cloud && !is_poly(file_) && !is_vdb(file_)) {
+    if (auto data = read_data(file_, asked, state_.report))
+      state_.data = *std::move(data);
+    else
+      is_cloud = true;
+  }
   if (is_cloud) {
     points = read_cloud(file_);
-  } else if (asked != DomainKind::mixed && has_extension(file_, io::cell_extensions())) {
-    io::Mixed cells = io::read_cells(file_);
-    is_cloud = cells.edges.empty() && cells.triangles.empty() && cells.tets.empty();
-    if (is_cloud)
-      points.points.positions = std::move(cells.positions);
-    else
-      state_.data = data_of(file_, std::move(cells));
-  } else if (!is_poly(file_) && !is_vdb(file_)) {
-    state_.data = read_mesh(file_, asked);
+    state_.report = std::move(points.points.report);
   }
   state_.load_seconds = loading.seconds();
   const DomainKind natural = is_cloud ? DomainKind::cloud
@@ -326,7 +283,17 @@ AnyShape::State ShapeFile::read() {
           return data.positions.size();
       },
       state_.data);
+  find_collapsed(state_);
+  if (options_.strict) require_strict();
   return std::move(state_);
+}
+
+// Nothing may be left out, guessed or mended.
+void ShapeFile::require_strict() const {
+  std::string cause = state_.report.notes.empty() ? "" : state_.report.notes.front();
+  if (!state_.collapsed.empty()) cause = collapsed_sentence(AnyShape::of(state_));
+  if (!cause.empty())
+    throw InputError(file_ + ": " + cause + ", which " + asked_.name("strict") + " refuses");
 }
 
 void ShapeFile::fill() {
@@ -398,15 +365,20 @@ AnyShape AnyShape::read(std::span<const std::filesystem::path> files, double tol
     check_part(file, {.held = points ? DomainKind::cloud : DomainKind::surface,
                       .wanted = DomainKind::mixed,
                       .form = form_of(file)});
-    std::visit([&](auto&& data) { append(std::move(data), file, shape); },
-               read_mesh(file, has_extension(file, io::mixed_extensions())
-                                   ? std::optional(DomainKind::mixed)
-                                   : std::nullopt));
+    io::FileReport report;
+    auto data = read_data(file, DomainKind::mixed, report);
+    if (!data) check_part(file, {.held = DomainKind::cloud, .wanted = DomainKind::mixed});
+    std::visit([&](auto&& part) { append(std::move(part), file, shape); }, *std::move(data));
+    state.report.split_polygons += report.split_polygons;
+    state.report.split_cells += report.split_cells;
+    for (const auto& [what, count] : report.passed_over) state.report.pass_over(what, count);
+    for (const std::string& note : report.notes) state.report.notes.push_back(file + ": " + note);
   }
   state.load_seconds = loading.seconds();
   state.file = names;
   state.vertices = shape.positions.size();
   state.data = std::move(shape);
+  find_collapsed(state);
   return AnyShape(std::make_shared<State>(std::move(state)));
 }
 

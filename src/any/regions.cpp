@@ -18,7 +18,7 @@ std::vector<std::int64_t> AnyShape::regions() const {
     return UsageError(name + " has regions of " + counted(cells, "cells") + ", which are not the " +
                       counted(simplices(), simplex_name()) + " of the domain");
   };
-  io::Regions found = io::read_regions(file(), kind() != DomainKind::solid);
+  io::Regions found = io::read_regions(file());
   std::vector<std::int64_t> regions;
   if (kind() == DomainKind::solid) {
     regions = std::move(found.tets);
@@ -26,7 +26,7 @@ std::vector<std::int64_t> AnyShape::regions() const {
     for (const auto* list : {&found.edges, &found.triangles, &found.tets})
       regions.insert(regions.end(), list->begin(), list->end());
   } else {
-    const io::Mixed cells = io::read_mixed(file());
+    const io::Mixed cells = io::read_cells(file());
     if (const auto* surface = std::get_if<io::Triangles>(&data())) {
       if (cells.triangles != surface->triangles) throw foreign(cells.triangles.size());
       regions = std::move(found.triangles);

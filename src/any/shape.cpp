@@ -10,6 +10,7 @@
 #include <plexway/io/field.hpp>
 
 #include "any/arguments/require.hpp"
+#include "any/collapsed.hpp"
 #include "any/fill.hpp"
 #include "any/kept_build.hpp"
 #include "any/openvdb_functions.hpp"
@@ -139,6 +140,7 @@ AnyShape::State of_data(AnyShape::Data data, std::size_t vertices) {
   AnyShape::State state;
   state.data = std::move(data);
   state.vertices = vertices;
+  find_collapsed(state);
   return state;
 }
 
@@ -242,6 +244,7 @@ AnyShape AnyShape::simplices(SimplexShape shape) {
   state.vertices = shape.vertices;
   state.places = places_of(shape);
   state.data = std::move(shape);
+  find_collapsed(state);
   return AnyShape(std::make_shared<State>(std::move(state)));
 }
 
@@ -276,6 +279,8 @@ std::size_t AnyShape::vertices() const { return state_->vertices; }
 const MeasuredLengths* AnyShape::lengths() const {
   return state_->lengths ? &*state_->lengths : nullptr;
 }
+const io::FileReport& AnyShape::report() const { return state_->report; }
+std::span<const Index> AnyShape::collapsed() const { return state_->collapsed; }
 const std::string& AnyShape::level_set_note() const { return state_->level_set_note; }
 double AnyShape::load_seconds() const { return state_->load_seconds; }
 std::optional<double> AnyShape::mesh_seconds() const { return state_->mesh_seconds; }

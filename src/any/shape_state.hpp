@@ -24,6 +24,8 @@ struct AnyShape::State {
   double load_seconds = 0;
   std::optional<double> mesh_seconds, neighbour_seconds;
   std::shared_ptr<const KeptBuild> kept;  ///< of a prepared file
+  io::FileReport report;                  ///< of what the file has
+  std::vector<Index> collapsed;           ///< simplices with a corner twice, which are left out
 };
 
 /// Where the vertices of simplices are: AnyShape::State::places.

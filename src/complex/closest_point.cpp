@@ -96,12 +96,21 @@ double largest_offset(std::span<const Vector> positions, const Vector& point) {
 }
 
 template <std::size_t N>
+bool has_twice(const std::array<std::uint32_t, N>& corners) {
+  for (std::size_t i = 1; i < N; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (corners[i] == corners[j]) return true;
+  return false;
+}
+
+template <std::size_t N>
 SimplexPoint closest_of_all(std::span<const Vector> positions,
                             std::span<const std::array<std::uint32_t, N>> simplices,
                             const Vector& point) {
   const double scale = largest_offset(positions, point);
   SimplexPoint best;
   for (std::size_t simplex = 0; simplex < simplices.size(); ++simplex) {
+    if (N > 2 && has_twice(simplices[simplex])) continue;  // others have its edges
     std::array<Vector, N> corners;
     for (std::size_t i = 0; i < N; ++i) {
       const Vector& position = positions[simplices[simplex][i]];

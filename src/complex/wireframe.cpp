@@ -15,7 +15,6 @@ namespace {
 using Edges = std::span<const std::array<Index, 2>>;
 
 void check_edges(std::size_t vertices, Edges edges) {
-  if (edges.empty()) throw InputError("the wireframe has no edges");
   if (vertices >= none) throw InputError("more than 4294967294 vertices");
   if (edges.size() > none / 2)
     throw InputError(std::to_string(edges.size()) + " edges: at most " + std::to_string(none / 2) +
@@ -34,7 +33,7 @@ std::vector<Index> inverse(std::span<const Index> order) {
 }
 
 double mean_of(std::span<const double> lengths) {
-  const double longest = *std::max_element(lengths.begin(), lengths.end());
+  const double longest = lengths.empty() ? 0 : *std::max_element(lengths.begin(), lengths.end());
   if (!(longest > 0)) return 0;
   double sum = 0;  // in proportion, so that it cannot overflow
   for (const double l : lengths) sum += l / longest;

@@ -32,7 +32,7 @@ class EdgeListReader {
       }
       in_.next_line();
     }
-    if (wires_.edges.empty())
+    if (wires_.edges.empty() && !promised_)
       throw InputError(std::string(name_) + ": has no edges; a wireframe needs at least one");
     if (wires_.lengths.empty()) wires_.lengths.assign(wires_.edges.size(), 1.0);
     wires_.vertices = static_cast<std::size_t>(promised_.value_or(named_));

@@ -10,7 +10,9 @@
 #include <plexway/error.hpp>
 
 #include "binary_numbers.hpp"
+#include "readers.hpp"
 #include "surface_checks.hpp"
+#include "value_source.hpp"
 
 namespace plexway::io {
 namespace {
@@ -41,7 +43,8 @@ class FreesurferReader : public BinaryNumbers<FreesurferReader> {
     for (std::size_t f = 0; f < surface.triangles.size(); ++f)
       for (std::uint32_t& corner : surface.triangles[f]) {
         const std::int64_t v = whole(NumberType::i32, "a corner");
-        if (v < 0 || v >= vertices) fail(bad_index(f, v, surface.positions.size()));
+        if (v < 0 || v >= vertices)
+          fail(bad_corner("face", static_cast<std::int64_t>(f), v, surface.positions.size()));
         corner = static_cast<std::uint32_t>(v);
       }
     require_faces(surface, name_);
@@ -60,6 +63,32 @@ Triangles parse_freesurfer(std::string_view bytes, std::string_view name) {
   if (bytes.substr(0, 3) != "\xFF\xFF\xFE"sv || text == bytes.npos)
     throw InputError(std::string(name) + ": is no surface of triangles of FreeSurfer");
   return FreesurferReader(bytes, text + 2, name).read();
+}
+
+Triangles parse_freesurfer_ascii(std::string_view text, std::string_view name) {
+  TextValues in(TextScanner(text, name));
+  const auto count = [&](std::string_view what) {
+    return checked_count(in, in.text_whole("the number of " + std::string(what)), what,
+                         NumberType::f64, 4);
+  };
+  Triangles surface;
+  surface.positions.resize(count("vertices"));
+  surface.triangles.resize(count("triangles"));
+  for (auto& position : surface.positions) {
+    for (double& x : position) x = in.real(NumberType::f64, "a coordinate");
+    in.skip(NumberType::f64, 1, "the patch of a vertex");
+  }
+  for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
+    for (std::uint32_t& corner : surface.triangles[f]) {
+      const std::int64_t v = in.text_whole("a corner");
+      if (v < 0 || v >= std::ssize(surface.positions))
+        in.fail(bad_corner("face", static_cast<std::int64_t>(f), v, surface.positions.size()));
+      corner = static_cast<std::uint32_t>(v);
+    }
+    in.skip(NumberType::f64, 1, "the patch of a triangle");
+  }
+  require_faces(surface, name);
+  return surface;
 }
 
 }  // namespace plexway::io

@@ -70,8 +70,8 @@ class GiftiReader {
           fail("triangle " + std::to_string(surface.triangles.size()) +
                " has a corner that is not the number of a vertex");
         if (!(corner >= 0 && corner < static_cast<double>(surface.positions.size())))
-          fail(bad_index(surface.triangles.size(), static_cast<std::int64_t>(corner),
-                         surface.positions.size()));
+          fail(bad_corner("face", std::ssize(surface.triangles), static_cast<std::int64_t>(corner),
+                          surface.positions.size()));
         face[i] = static_cast<std::uint32_t>(corner);
       }
       surface.triangles.push_back(face);

@@ -6,6 +6,8 @@
 #include <plexway/error.hpp>
 #include <plexway/io/mixed.hpp>
 
+#include "readers.hpp"
+
 #ifdef PLEXWAY_IO_JSON
 
 #include <algorithm>
@@ -16,8 +18,8 @@
 
 #include "base64.hpp"
 #include "bytes.hpp"
+#include "cells.hpp"
 #include "quote.hpp"
-#include "tet_checks.hpp"
 
 namespace plexway::io {
 namespace {
@@ -37,11 +39,24 @@ Matrix product(const Matrix& a, const Matrix& b) {
 
 class GltfReader {
  public:
-  GltfReader(std::string_view bytes, std::string_view name) : name_(name) { open(bytes); }
+  GltfReader(std::string_view bytes, std::string_view name, const GltfFiles& beside)
+      : name_(name), beside_(beside), size_(bytes.size()) {
+    open(bytes);
+  }
 
   Mixed read() {
-    for (const auto& needed : list(json_, "extensionsRequired"))
-      fail("needs the extension " + quote(text(needed)) + ", which is not read; save it without");
+    for (const auto& needed : list(json_, "extensionsRequired")) {
+      const std::string extension = text(needed);
+      // Numbers of another kind, and what has to do with looks alone.
+      const auto starts = [&](std::string_view what) { return extension.starts_with(what); };
+      if (extension == "KHR_mesh_quantization" || starts("KHR_materials_") ||
+          starts("KHR_texture_") || starts("EXT_texture_"))
+        continue;
+      if (extension.find("draco") != extension.npos || extension.find("meshopt") != extension.npos)
+        fail("is packed (" + extension +
+             "), which is not read; unpack it, with 'gltf-transform copy' or Blender");
+      fail("needs the extension " + quote(extension) + ", which is not read; save it without");
+    }
     // Seams are cuts of the format, not of the surface.
     const Json asset = json_.value("asset", Json::object());
     own_ = asset.is_object() && asset.contains("generator") && asset["generator"] == "plexway";
@@ -57,7 +72,6 @@ class GltfReader {
     }
     if (!own_) weld();
     if (cells_.positions.empty()) fail("has no points");
-    require_cells(cells_, {}, Take::any, name_);
     return std::move(cells_);
   }
 
@@ -125,55 +139,105 @@ class GltfReader {
       fail("buffer " + std::to_string(number) + " has no bytes");
     }
     const std::string uri = text(one["uri"]);
-    const auto comma = uri.find(',');
-    if (!uri.starts_with("data:") || comma == uri.npos)
-      fail("has its numbers in another file, " + quote(uri) + "; save it as .glb");
     auto [found, added] = decoded_.try_emplace(number);
-    if (added && !decode_base64(std::string_view(uri).substr(comma + 1), found->second))
+    if (!added) return found->second;
+    const auto comma = uri.find(',');
+    if (!uri.starts_with("data:") || comma == uri.npos) {
+      if (!beside_) fail("has its numbers in another file, " + quote(uri));
+      size_ += (found->second = beside_(uri)).size();
+    } else if (!decode_base64(std::string_view(uri).substr(comma + 1), found->second)) {
       fail("buffer " + std::to_string(number) + " is no base64");
+    }
     return found->second;
   }
 
-  struct Accessor {
-    std::string_view bytes;  ///< from its first number on
-    std::uint64_t count = 0, stride = 0, kind = 0;
-  };
+  /// Numbers of `kind` in a bufferView, `parts` after each other `count` times.
+  struct Numbers {
+    std::string_view bytes;  ///< from the first on
+    std::uint64_t count = 0, stride = 0, kind = 0, parts = 0;
 
-  Accessor accessor(const Json& number, const char* type, std::uint64_t parts) {
-    const Json& one = list(json_, "accessors")[index(number, "accessors")];
-    if (one.contains("sparse")) fail("has a sparse accessor, which is not read");
-    if (text(one.value("type", Json())) != type)
-      fail("accessor " + text(number) + " is not of type " + type);
-    Accessor found;
-    found.count = whole(one, "count", 0);
-    found.kind = whole(one, "componentType", 0);
-    const std::uint64_t size = found.kind == 5121 ? 1 : found.kind == 5123 ? 2 : 4;
-    if (found.kind != 5121 && found.kind != 5123 && found.kind != 5125 && found.kind != 5126)
-      fail("accessor " + text(number) + " has numbers of kind " + std::to_string(found.kind));
-    if (!one.contains("bufferView")) fail("accessor " + text(number) + " has no numbers");
-    const Json& view = list(json_, "bufferViews")[index(one["bufferView"], "bufferViews")];
+    [[nodiscard]] double at(std::uint64_t i, std::uint64_t part, bool normalized) const {
+      const char* from = bytes.data() + i * stride + part * size_of(kind);
+      const auto of = [&]<class Number>(Number, double one) {
+        const auto x = static_cast<double>(load<Number>(from, std::endian::little));
+        return normalized ? std::max(x / one, -1.0) : x;
+      };
+      switch (kind) {
+        case 5120:
+          return of(std::int8_t{}, 127);
+        case 5121:
+          return of(std::uint8_t{}, 255);
+        case 5122:
+          return of(std::int16_t{}, 32767);
+        case 5123:
+          return of(std::uint16_t{}, 65535);
+        case 5125:
+          return of(std::uint32_t{}, 4294967295.0);
+        default:
+          return of(float{}, 1);
+      }
+    }
+  };
+  static std::uint64_t size_of(std::uint64_t kind) { return kind < 5122 ? 1 : kind < 5124 ? 2 : 4; }
+
+  Numbers numbers_in(const Json& of, std::uint64_t kind, std::uint64_t count, std::uint64_t parts,
+                     const std::string& name) {
+    if (kind < 5120 || kind > 5126 || kind == 5124)
+      fail(name + " has numbers of kind " + std::to_string(kind));
+    const Json& view = list(json_, "bufferViews")[index(of["bufferView"], "bufferViews")];
     if (!view.is_object() || !view.contains("buffer")) fail("a bufferView names no buffer");
     const std::string_view all = buffer(index(view["buffer"], "buffers"));
     const std::uint64_t from = whole(view, "byteOffset", 0), length = whole(view, "byteLength", 0),
-                        skip = whole(one, "byteOffset", 0);
+                        skip = whole(of, "byteOffset", 0), row = parts * size_of(kind);
     if (from > all.size() || length > all.size() - from || skip > length)
-      fail("accessor " + text(number) + " lies outside its buffer");
-    found.bytes = all.substr(from + skip, length - skip);
-    found.stride = whole(view, "byteStride", parts * size);
-    if (found.stride < parts * size || found.stride > 4096)
-      fail("a byteStride of " + std::to_string(found.stride) + " is not one");
-    const std::uint64_t left = found.bytes.size();
-    if (found.count > 0 &&
-        (left < parts * size || (left - parts * size) / found.stride < found.count - 1))
-      fail("accessor " + text(number) + " has fewer numbers than it says");
-    return found;
+      fail(name + " lies outside its buffer");
+    const std::uint64_t stride = whole(view, "byteStride", row);
+    if (stride < row || stride > 4096)
+      fail("a byteStride of " + std::to_string(stride) + " is not one");
+    const std::uint64_t left = length - skip;
+    if (count > 0 && (left < row || (left - row) / stride < count - 1))
+      fail(name + " has fewer numbers than it says");
+    return {all.substr(from + skip, left), count, stride, kind, parts};
   }
 
-  static std::uint32_t whole_at(const Accessor& of, std::uint64_t i) {
-    const char* at = of.bytes.data() + i * of.stride;
-    if (of.kind == 5121) return static_cast<unsigned char>(*at);
-    if (of.kind == 5123) return load<std::uint16_t>(at, std::endian::little);
-    return load<std::uint32_t>(at, std::endian::little);
+  /// The numbers of an accessor, `parts` after each other.
+  std::vector<double> accessor(const Json& number, const char* type, std::uint64_t parts) {
+    const Json& one = list(json_, "accessors")[index(number, "accessors")];
+    const std::string name = "accessor " + text(number);
+    if (text(one.value("type", Json())) != type) fail(name + " is not of type " + type);
+    const std::uint64_t count = whole(one, "count", 0), kind = whole(one, "componentType", 0);
+    const bool normalized = one.contains("normalized") && one["normalized"] == true;
+    const bool sparse = one.contains("sparse");
+    std::vector<double> found;
+    const auto take = [&](const Numbers& in, const auto& place) {
+      for (std::uint64_t i = 0; i < in.count; ++i)
+        for (std::uint64_t part = 0; part < parts; ++part)
+          found[place(i) * parts + part] = in.at(i, part, normalized);
+    };
+    if (one.contains("bufferView")) {
+      const Numbers in = numbers_in(one, kind, count, parts, name);
+      found.resize(count * parts);
+      take(in, [](std::uint64_t i) { return i; });
+    } else {
+      // Zeros; of those that nothing packs there are no more than bytes.
+      if (!sparse) fail(name + " has no numbers");
+      if (count > size_) fail(name + " has fewer numbers than it says");
+      found.resize(count * parts);
+    }
+    if (!sparse) return found;
+    const Json& other = one["sparse"];
+    if (!other.is_object() || !other.contains("indices") || !other.contains("values"))
+      fail(name + " is sparse without indices and values");
+    const std::uint64_t some = whole(other, "count", 0);
+    const Json &where = other["indices"], &what = other["values"];
+    const Numbers at = numbers_in(where, whole(where, "componentType", 0), some, 1, name);
+    take(numbers_in(what, kind, some, parts, name), [&](std::uint64_t i) {
+      const double place = at.at(i, 0, false);
+      if (!(place >= 0 && place < static_cast<double>(count)))
+        fail(name + " is sparse, with an index out of range");
+      return static_cast<std::uint64_t>(place);
+    });
+    return found;
   }
 
   std::vector<double> numbers(const Json& of, const char* key, std::size_t count) const {
@@ -233,7 +297,7 @@ class GltfReader {
 
   void add_mesh(std::size_t number, const Matrix& m) {
     // Primitives of a mesh may share their vertices.
-    std::map<std::size_t, std::size_t> first_of;
+    std::map<std::size_t, std::array<std::size_t, 2>> first_of;  // and how many
     for (const Json& primitive : list(list(json_, "meshes")[number], "primitives")) {
       if (!primitive.is_object() || !primitive.contains("attributes") ||
           !primitive["attributes"].contains("POSITION"))
@@ -241,29 +305,25 @@ class GltfReader {
       const Json& where = primitive["attributes"]["POSITION"];
       const std::size_t place = index(where, "accessors");
       const auto known = first_of.find(place);
-      const Accessor at = accessor(where, "VEC3", 3);
-      const std::size_t first = known == first_of.end() ? cells_.positions.size() : known->second;
       if (known == first_of.end()) {
-        first_of[place] = first;
-        add_points(at, m);
+        first_of[place] = {cells_.positions.size(), 0};
+        add_points(accessor(where, "VEC3", 3), m);
+        first_of[place][1] = cells_.positions.size() - first_of[place][0];
       }
-      add_primitive(primitive, first, at.count);
+      add_primitive(primitive, first_of[place][0], first_of[place][1]);
     }
   }
 
-  void add_points(const Accessor& at, const Matrix& m) {
-    if (at.kind != 5126) fail("positions that are whole numbers are not read");
-    if (at.count >= most_vertices - cells_.positions.size()) fail("more points than 32 bits count");
-    for (std::uint64_t i = 0; i < at.count; ++i) {
-      std::array<double, 3> p{}, out{};
-      for (std::size_t k = 0; k < 3; ++k)
-        p[k] = static_cast<double>(
-            load<float>(at.bytes.data() + i * at.stride + 4 * k, std::endian::little));
+  void add_points(const std::vector<double>& at, const Matrix& m) {
+    if (at.size() / 3 >= most_vertices - cells_.positions.size())
+      fail("more points than 32 bits count");
+    for (std::size_t i = 0; i < at.size(); i += 3) {
+      std::array<double, 3> out{};
       for (std::size_t row = 0; row < 3; ++row) {
         out[row] = m[12 + row];
-        for (std::size_t k = 0; k < 3; ++k) out[row] += m[4 * k + row] * p[k];
+        for (std::size_t k = 0; k < 3; ++k) out[row] += m[4 * k + row] * at[i + k];
         if (!std::isfinite(out[row]))
-          fail("point " + std::to_string(i) + " has a coordinate that is not finite");
+          fail("point " + std::to_string(i / 3) + " has a coordinate that is not finite");
       }
       cells_.positions.push_back(out);
     }
@@ -271,17 +331,14 @@ class GltfReader {
 
   void add_primitive(const Json& primitive, std::size_t first, std::uint64_t points) {
     const std::uint64_t mode = whole(primitive, "mode", 4);
-    std::optional<Accessor> indices;
-    if (primitive.contains("indices")) {
-      indices = accessor(primitive["indices"], "SCALAR", 1);
-      if (indices->kind == 5126) fail("indices that are no whole numbers");
-    }
-    const std::uint64_t count = indices ? indices->count : points;
+    std::optional<std::vector<double>> indices;
+    if (primitive.contains("indices")) indices = accessor(primitive["indices"], "SCALAR", 1);
+    const std::uint64_t count = indices ? indices->size() : points;
     const auto corner = [&](std::uint64_t i) {
-      const std::uint64_t v = indices ? whole_at(*indices, i) : i;
-      if (v >= points)
-        fail("a primitive names vertex " + std::to_string(v) + " of " + std::to_string(points));
-      return static_cast<std::uint32_t>(first + v);
+      const double v = indices ? (*indices)[i] : static_cast<double>(i);
+      if (!(v >= 0 && v < static_cast<double>(points) && v == std::floor(v)))
+        fail("a primitive names vertex " + text(v) + " of " + std::to_string(points));
+      return static_cast<std::uint32_t>(first + static_cast<std::size_t>(v));
     };
     const auto line = [&](std::uint64_t a, std::uint64_t b) {
       cells_.edges.push_back({corner(a), corner(b)});
@@ -345,6 +402,8 @@ class GltfReader {
   }
 
   std::string_view name_;
+  const GltfFiles& beside_;
+  std::uint64_t size_;  ///< of all files
   Json json_;
   std::optional<std::string_view> binary_;
   std::map<std::size_t, std::string> decoded_;
@@ -355,9 +414,9 @@ class GltfReader {
 
 }  // namespace
 
-Mixed parse_gltf(std::string_view bytes, std::string_view name) {
+Mixed parse_gltf_files(std::string_view bytes, std::string_view name, const GltfFiles& beside) {
   try {
-    return GltfReader(bytes, name).read();
+    return GltfReader(bytes, name, beside).read();
   } catch (const Json::exception&) {  // an array where an object should be, and the like
     throw InputError(std::string(name) + ": its JSON is not what glTF has");
   }
@@ -369,7 +428,7 @@ Mixed parse_gltf(std::string_view bytes, std::string_view name) {
 
 namespace plexway::io {
 
-Mixed parse_gltf(std::string_view, std::string_view name) {
+Mixed parse_gltf_files(std::string_view, std::string_view name, const GltfFiles&) {
   throw NotBuiltError(std::string(name) +
                       ": this plexway reads no .glb or .gltf: install nlohmann-json3-dev and build "
                       "it again, or save the file as .ply");
@@ -378,3 +437,11 @@ Mixed parse_gltf(std::string_view, std::string_view name) {
 }  // namespace plexway::io
 
 #endif
+
+namespace plexway::io {
+
+Mixed parse_gltf(std::string_view bytes, std::string_view name) {
+  return parse_gltf_files(bytes, name, {});
+}
+
+}  // namespace plexway::io

@@ -7,10 +7,8 @@
 
 #include <plexway/io/tets.hpp>
 
-#include "gmsh_elements.hpp"
 #include "node_tags.hpp"
 #include "region_parsers.hpp"
-#include "tet_checks.hpp"
 #include "value_source.hpp"
 
 namespace plexway::io {
@@ -29,8 +27,8 @@ template <class Source>
 class GmshReader {
  public:
   /// `regions`: where those of the cells go, if they are wanted.
-  GmshReader(Source in, std::string_view name, Take take, Regions* regions)
-      : in_(in), name_(name), take_(take), regions_(regions) {}
+  GmshReader(Source in, std::string_view name, Regions* regions)
+      : in_(in), name_(name), regions_(regions) {}
 
   Mixed read(bool version4) {
     while (!(has_nodes_ && has_elements_)) {
@@ -61,7 +59,7 @@ class GmshReader {
         in_.fail("expected a section, found " + quote(section));
       }
     }
-    require_cells(solid_, others_, take_, name_);
+    taker_.finish(name_);
     return std::move(solid_);
   }
 
@@ -159,18 +157,18 @@ class GmshReader {
     for (std::uint64_t i = 0; i < elements;) {
       if constexpr (Source::is_text) {
         const std::int64_t number = in_.whole(i32, "the element's number");
-        const GmshElement* element = find_gmsh_element(in_.whole(i32, "the element's type"));
-        if (element != nullptr) {
+        const CellType type = gmsh_cell_type(in_.whole(i32, "the element's type"));
+        if (type.kind != CellKind::none) {
           tags2(tag_count());
-          this->element(*element, number, i32);
+          element(type, number, i32);
           in_.end_item();
         } else {
-          others_.add("elements of an unknown type");
+          taker_.refuse("elements of an unknown type");
           in_.end_line();
         }
         ++i;
       } else {
-        const GmshElement& element = known(in_.whole(i32, "the type of elements"));
+        const CellType type = known(in_.whole(i32, "the type of elements"));
         const std::uint64_t here =
             count(in_.whole(i32, "the number of elements"), "elements in a block", i32, 1);
         if (here == 0) in_.fail("a block without elements");
@@ -179,7 +177,7 @@ class GmshReader {
         for (std::uint64_t e = 0; e < here; ++e) {
           const std::int64_t number = in_.whole(i32, "the element's number");
           tags2(tags);
-          this->element(element, number, i32);
+          element(type, number, i32);
         }
         i += here;
       }
@@ -198,33 +196,32 @@ class GmshReader {
       const std::int64_t tag = in_.whole(i32, "the entity's dimension and tag");
       const auto group = groups_.find({dimension, tag});
       region_ = group == groups_.end() ? 0 : group->second;
-      const std::int64_t type = in_.whole(i32, "the type of elements");
+      const std::int64_t type_number = in_.whole(i32, "the type of elements");
       const std::uint64_t here = count(in_.whole(u64, "the number of elements of the block"),
                                        "elements in a block", u64, 2);
       if (here > elements - seen) more_than("elements", elements);
       seen += here;
-      const GmshElement* element = find_gmsh_element(type);
-      if (element == nullptr && Source::is_text) {
-        others_.add("elements of an unknown type", here);
+      const CellType type = Source::is_text ? gmsh_cell_type(type_number) : known(type_number);
+      if (type.kind == CellKind::none) {
+        taker_.refuse("elements of an unknown type", here);
         for (std::uint64_t e = 0; e <= here; ++e) in_.end_line();
         continue;
       }
-      if (element == nullptr) element = &known(type);
       for (std::uint64_t e = 0; e < here; ++e) {
         const std::int64_t number = in_.whole(u64, "the element's tag");
-        this->element(*element, number, u64);
+        element(type, number, u64);
         in_.end_item();
       }
     }
     if (seen != elements) fewer_than("elements", seen, elements);
   }
 
-  const GmshElement& known(std::int64_t type) {
-    const GmshElement* element = find_gmsh_element(type);
-    if (element == nullptr)
-      in_.fail("elements of type " + std::to_string(type) +
+  CellType known(std::int64_t number) {
+    const CellType type = gmsh_cell_type(number);
+    if (type.kind == CellKind::none)
+      in_.fail("elements of type " + std::to_string(number) +
                ", whose size is not known; save the file as ascii");
-    return *element;
+    return type;
   }
 
   // The first is the physical group, 0 for none.
@@ -237,47 +234,25 @@ class GmshReader {
     return count(in_.whole(i32, "the number of tags"), "tags of an element", i32, 1);
   }
 
-  void element(const GmshElement& element, std::int64_t number, NumberType type) {
-    const bool mixed = take_ != Take::tets;
-    if (element.kind == gmsh_tetrahedra) {
-      solid_.tets.push_back(
-          corners<4>(element, "tetrahedron", "a node of the tetrahedron", number, type));
-    } else if (mixed && element.kind == gmsh_triangles) {
-      solid_.triangles.push_back(
-          corners<3>(element, "triangle", "a node of the triangle", number, type));
-    } else if (mixed && element.kind == gmsh_quadrilaterals) {
-      const auto q =
-          corners<4>(element, "quadrilateral", "a node of the quadrilateral", number, type);
-      solid_.triangles.push_back({q[0], q[1], q[2]});
-      solid_.triangles.push_back({q[0], q[2], q[3]});
-    } else if (mixed && element.kind == gmsh_lines) {
-      solid_.edges.push_back(corners<2>(element, "line", "a node of the line", number, type));
-    } else {
-      if (!mixed || element.kind != gmsh_points) others_.add(element.kind);
-      in_.skip(type, element.nodes, "a node of the element");
+  void element(const CellType& type, std::int64_t number, NumberType numbers) {
+    constexpr std::string_view node = "a node of the element";
+    std::array<std::uint32_t, 8> corner{};
+    const std::uint32_t corners = corners_of(type.kind);
+    for (std::uint32_t i = 0; i < corners; ++i) {
+      const std::int64_t tag = in_.whole(numbers, node);
+      const auto vertex = tags_.find(tag);
+      if (!vertex)
+        in_.fail(std::string(name_of(type.kind)) + " " + std::to_string(number) + " names node " +
+                 std::to_string(tag) + ", which is not among the " + std::to_string(tags_.size()) +
+                 " nodes");
+      corner[i] = *vertex;
     }
+    in_.skip(numbers, type.nodes - corners, node);
+    static_cast<void>(taker_.add(type.kind, std::span(corner).first(corners)));
     if (regions_ == nullptr) return;
     regions_->edges.resize(solid_.edges.size(), region_);
     regions_->triangles.resize(solid_.triangles.size(), region_);
     regions_->tets.resize(solid_.tets.size(), region_);
-  }
-
-  template <std::size_t N>
-  std::array<std::uint32_t, N> corners(const GmshElement& element, const char* what,
-                                       std::string_view node, std::int64_t number,
-                                       NumberType type) {
-    std::array<std::uint32_t, N> found{};
-    for (std::uint32_t& corner : found) {
-      const std::int64_t tag = in_.whole(type, node);
-      const auto vertex = tags_.find(tag);
-      if (!vertex)
-        in_.fail(std::string(what) + " " + std::to_string(number) + " names node " +
-                 std::to_string(tag) + ", which is not among the " + std::to_string(tags_.size()) +
-                 " nodes");
-      corner = *vertex;
-    }
-    in_.skip(type, element.nodes - N, node);
-    return found;
   }
 
   [[noreturn]] void more_than(std::string_view what, std::uint64_t stated) {
@@ -292,13 +267,12 @@ class GmshReader {
 
   Source in_;
   std::string_view name_;
-  Take take_;
   Regions* regions_;
   std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> groups_;  // by dimension and tag
   std::int64_t region_ = 0;  // of the element that is read
   Mixed solid_;
   NodeTags tags_;
-  OtherCells others_;
+  CellTaker taker_{solid_};
   bool has_nodes_ = false;
   bool has_elements_ = false;
 };
@@ -306,7 +280,19 @@ class GmshReader {
 /// Reads the line under $MeshFormat and leaves the scanner on the next.
 Format read_gmsh_format(TextScanner& scanner) {
   if (!scanner.to_content()) scanner.fail("expected $MeshFormat, found the end of the file");
-  const std::string_view word = scanner.field();
+  std::string_view word = scanner.field();
+  // $Comments, and whatever else stands before it.
+  while (word.starts_with('$') && word != "$MeshFormat" && word != "$NOD") {
+    const std::string end = "$End" + std::string(word.substr(1));
+    while (word != end) {
+      scanner.next_line();
+      if (scanner.at_end()) scanner.fail("the file ends before " + quote(end));
+      word = scanner.field();
+    }
+    if (!scanner.next_line() || !scanner.to_content())
+      scanner.fail("expected $MeshFormat, found the end of the file");
+    word = scanner.field();
+  }
   if (word == "$NOD") scanner.fail("version 1 of .msh is not read; save it as version 4.1 or 2.2");
   if (word != "$MeshFormat") scanner.fail("expected $MeshFormat, found " + quote(word));
   if (!scanner.to_content()) scanner.fail("the file ends before the version");
@@ -324,15 +310,14 @@ Format read_gmsh_format(TextScanner& scanner) {
   return format;
 }
 
-Mixed parse_gmsh_body(std::string_view bytes, std::string_view name, Take take,
-                      Regions* regions = nullptr) {
+Mixed parse_gmsh_body(std::string_view bytes, std::string_view name, Regions* regions = nullptr) {
   TextScanner scanner(bytes, name);
   const Format format = read_gmsh_format(scanner);
   const bool version4 = format.version > 3;
   if (!format.binary) {
     if (!scanner.to_content() || scanner.field() != "$EndMeshFormat")
       scanner.fail("expected $EndMeshFormat");
-    return GmshReader(TextValues(scanner), name, take, regions).read(version4);
+    return GmshReader(TextValues(scanner), name, regions).read(version4);
   }
   // A one, as an int, tells the byte order.
   const std::size_t at = bytes.size() - scanner.bytes_left();
@@ -344,26 +329,22 @@ Mixed parse_gmsh_body(std::string_view bytes, std::string_view name, Take take,
   if (in.whole(i32, "the number that tells the order of bytes") != 1)
     in.fail("the number that tells the order of bytes is not 1");
   if (in.word() != "$EndMeshFormat") in.fail("expected $EndMeshFormat");
-  return GmshReader(in, name, take, regions).read(version4);
+  return GmshReader(in, name, regions).read(version4);
 }
 
 }  // namespace
 
 Tets parse_gmsh(std::string_view bytes, std::string_view name) {
-  return tets_of(parse_gmsh_body(bytes, name, Take::tets));
+  return tets_of(parse_gmsh_body(bytes, name), name);
 }
 
 Mixed parse_gmsh_cells(std::string_view bytes, std::string_view name) {
-  return parse_gmsh_body(bytes, name, Take::any);
+  return parse_gmsh_body(bytes, name);
 }
 
-Mixed parse_gmsh_mixed(std::string_view bytes, std::string_view name) {
-  return parse_gmsh_body(bytes, name, Take::mixed);
-}
-
-Regions parse_gmsh_regions(std::string_view bytes, std::string_view name, Take take) {
+Regions parse_gmsh_regions(std::string_view bytes, std::string_view name) {
   Regions regions;
-  (void)parse_gmsh_body(bytes, name, take, &regions);
+  (void)parse_gmsh_body(bytes, name, &regions);
   return regions;
 }
 

@@ -12,7 +12,7 @@
 
 #include "io/file_bytes.hpp"
 #include "io/quote.hpp"
-#include "io/text_scanner.hpp"
+#include "text_scanner.hpp"
 
 namespace plexway::io {
 

@@ -3,6 +3,7 @@
 
 #include <plexway/io/triangles.hpp>
 
+#include "polygons.hpp"
 #include "surface_checks.hpp"
 #include "text_scanner.hpp"
 
@@ -12,8 +13,11 @@ namespace {
 /// Accepts OFF and its variants with texture (ST), colour (C) and normal (N) at each vertex; these
 /// come after the coordinates, so the variant makes no difference to us.
 void check_keyword(TextScanner& scanner, std::string_view keyword) {
-  if (keyword == "off") return;
-  std::string_view prefix = keyword;
+  // Some write the number of vertices right behind it.
+  const std::size_t end = keyword.find_last_not_of("0123456789") + 1;
+  scanner.back(keyword.size() - end);
+  std::string_view prefix = keyword.substr(0, end);
+  if (prefix == "off") return;
   if (!prefix.ends_with("OFF")) scanner.fail("expected OFF, found " + quote(keyword));
   prefix.remove_suffix(3);
   if (prefix.find_first_of("4n") != std::string_view::npos)
@@ -62,14 +66,12 @@ Triangles parse_off(std::string_view text, std::string_view name) {
   Triangles surface;
   surface.positions.reserve(vertices);
   surface.triangles.reserve(faces);
+  Faces polygons(surface.triangles);
   for (std::uint64_t i = 0; i < vertices; ++i) {
     if (!scanner.to_content())
       scanner.fail("the file ends after " + std::to_string(i) + " of " + std::to_string(vertices) +
                    " vertices");
-    const double x = scanner.number("coordinate x");
-    const double y = scanner.number("coordinate y");
-    const double z = scanner.number("coordinate z");
-    surface.positions.push_back({x, y, z});
+    surface.positions.push_back(scanner.position3());
     scanner.next_line();  // normals, colours
   }
   for (std::uint64_t i = 0; i < faces; ++i) {
@@ -78,15 +80,16 @@ Triangles parse_off(std::string_view text, std::string_view name) {
                    " faces");
     const std::uint64_t corners = read_count(scanner, "the number of corners");
     if (corners < 3) scanner.fail(too_few_corners(i, corners));
-    Fan fan(surface);
     for (std::uint64_t c = 0; c < corners; ++c) {
       const std::int64_t index = scanner.integer("a vertex of the face");
       if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
-        scanner.fail(bad_index(i, index, vertices));
-      fan.corner(static_cast<std::uint32_t>(index));
+        scanner.fail(bad_corner("face", static_cast<std::int64_t>(i), index, vertices));
+      polygons.corner(static_cast<std::uint32_t>(index));
     }
+    polygons.end_face();
     scanner.next_line();  // colours
   }
+  surface.report.split_polygons = polygons.cut(surface.positions);
   if (scanner.to_content())
     scanner.fail("the header says " + std::to_string(faces) + " faces, but the file goes on with " +
                  quote(scanner.field()));

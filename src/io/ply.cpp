@@ -1,61 +1,122 @@
-// Stanford PLY as a surface: its vertices and faces.
+// Stanford PLY: its vertices, faces, triangle strips and edges.
 
+#include <optional>
 #include <string>
 
 #include <plexway/io/triangles.hpp>
 
+#include "cells.hpp"
 #include "ply_body.hpp"
+#include "polygons.hpp"
+#include "readers.hpp"
 
 namespace plexway::io {
 namespace {
 
-template <class Source>
-void read_corners(Source& source, const PlySurface& layout, std::uint64_t face,
-                  Triangles& surface) {
-  const PlyProperty& property = *layout.corners;
-  const std::uint64_t vertices = layout.vertex.element->count;
-  const std::int64_t corners = source.whole(property.count_type, "the number of corners");
-  if (corners < 0) source.fail("the number of corners is negative: " + std::to_string(corners));
-  if (corners < 3) source.fail(too_few_corners(face, static_cast<std::size_t>(corners)));
-  Fan fan(surface);
-  for (std::int64_t c = 0; c < corners; ++c) {
-    const std::int64_t index = source.whole(property.type, "a vertex of the face");
-    if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
-      source.fail(bad_index(face, index, vertices));
-    fan.corner(static_cast<std::uint32_t>(index));
+/// What the header has of each kind.
+struct Layout {
+  PlyVertex vertex;
+  PlyCorners face, strips;
+  const PlyElement* edge = nullptr;
+  std::array<const PlyProperty*, 2> ends{};
+
+  Layout(const PlyHeader& header, std::string_view name)
+      : vertex(header, name), face(header, "face", name), strips(header, "tristrips", name) {
+    for (const auto& element : header.elements)
+      if (element.name == "edge") edge = &element;
+    for (std::size_t k = 0; k < 2 && edge != nullptr; ++k) {
+      ends[k] = find_property(*edge, k == 0 ? "vertex1" : "vertex2");
+      if (ends[k] == nullptr || ends[k]->is_list) edge = nullptr;  // not as others write them
+    }
   }
-}
+};
 
 template <class Source>
-Triangles read_body(Source source, const PlyHeader& header, const PlySurface& layout) {
-  Triangles surface;
-  const auto begin = [&](const PlyElement& element) {
-    if (&element == layout.vertex.element) surface.positions.reserve(element.count);
-    if (&element == layout.face) surface.triangles.reserve(element.count);
-  };
-  const auto read = [&](const PlyElement& element, std::uint64_t i, const PlyProperty& property) {
-    if (&element == layout.vertex.element) {
-      if (&property == &element.properties.front()) surface.positions.push_back({});
-      return layout.vertex.take(source, property, surface.positions.back());
-    }
-    if (&property != layout.corners) return false;
-    read_corners(source, layout, i, surface);
+class PlyReader {
+ public:
+  PlyReader(Source source, const Layout& layout) : source_(source), layout_(layout) {}
+
+  Mixed read(const PlyHeader& header) {
+    const auto begin = [&](const PlyElement& element) {
+      if (&element == layout_.vertex.element) cells_.positions.reserve(element.count);
+      if (&element == layout_.face.element) cells_.triangles.reserve(element.count);
+    };
+    const auto read = [&](const PlyElement& element, std::uint64_t i, const PlyProperty& property) {
+      if (&element == layout_.vertex.element) {
+        if (&property == &element.properties.front()) cells_.positions.push_back({});
+        return layout_.vertex.take(source_, property, cells_.positions.back());
+      }
+      if (&property == layout_.face.list) return read_face(property, i);
+      if (&property == layout_.strips.list) return read_strips(property, i);
+      if (&element == layout_.edge &&
+          (&property == layout_.ends[0] || &property == layout_.ends[1]))
+        return read_end(property, i);
+      return false;
+    };
+    walk_ply(source_, header, begin, read);
+    cells_.report.split_polygons = polygons_.cut(cells_.positions);
+    return std::move(cells_);
+  }
+
+ private:
+  std::uint64_t length(const PlyProperty& property) {
+    const std::int64_t corners = source_.whole(property.count_type, "the number of corners");
+    if (corners < 0) source_.fail("the number of corners is negative: " + std::to_string(corners));
+    return static_cast<std::uint64_t>(corners);
+  }
+  std::uint32_t vertex(std::int64_t index, std::string_view element, std::uint64_t number) {
+    const std::uint64_t vertices = layout_.vertex.element->count;
+    if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
+      source_.fail(bad_corner(element, static_cast<std::int64_t>(number), index, vertices));
+    return static_cast<std::uint32_t>(index);
+  }
+
+  bool read_face(const PlyProperty& property, std::uint64_t face) {
+    const std::uint64_t corners = length(property);
+    if (corners < 3) source_.fail(too_few_corners(face, corners));
+    for (std::uint64_t c = 0; c < corners; ++c)
+      polygons_.corner(vertex(source_.whole(property.type, "a vertex of the face"), "face", face));
+    polygons_.end_face();
     return true;
-  };
-  walk_ply(source, header, begin, read);
-  return surface;
-}
+  }
+  // One list may hold several strips, with -1 between them.
+  bool read_strips(const PlyProperty& property, std::uint64_t number) {
+    std::vector<std::uint32_t> strip;
+    CellTaker taker(cells_);
+    for (std::uint64_t left = length(property); left > 0; --left) {
+      const std::int64_t index = source_.whole(property.type, "a vertex of the strip");
+      if (index != -1) strip.push_back(vertex(index, "strip", number));
+      if (index != -1 && left > 1) continue;
+      static_cast<void>(taker.add(CellKind::strip, strip));
+      strip.clear();
+    }
+    return true;
+  }
+  bool read_end(const PlyProperty& property, std::uint64_t edge) {
+    if (cells_.edges.size() <= edge) cells_.edges.push_back({});
+    cells_.edges.back()[&property == layout_.ends[0] ? 0 : 1] =
+        vertex(source_.whole(property.type, "a vertex of the edge"), "edge", edge);
+    return true;
+  }
+
+  Source source_;
+  const Layout& layout_;
+  Mixed cells_;
+  Faces polygons_{cells_.triangles};
+};
 
 }  // namespace
 
-Triangles parse_ply(std::string_view bytes, std::string_view name) {
+Mixed parse_ply_cells(std::string_view bytes, std::string_view name) {
   const PlyHeader header = parse_ply_header(bytes, name);
-  const PlySurface layout(header, name);
-  Triangles surface = header.format == PlyFormat::ascii
-                          ? read_body(PlyText(bytes, name, header), header, layout)
-                          : read_body(PlyBytes(bytes, name, header), header, layout);
-  require_faces(surface, name);
-  return surface;
+  const Layout layout(header, name);
+  return header.format == PlyFormat::ascii
+             ? PlyReader(PlyText(bytes, name, header), layout).read(header)
+             : PlyReader(PlyBytes(bytes, name, header), layout).read(header);
+}
+
+Triangles parse_ply(std::string_view bytes, std::string_view name) {
+  return triangles_of(parse_ply_cells(bytes, name), name);
 }
 
 }  // namespace plexway::io

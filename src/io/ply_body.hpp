@@ -160,21 +160,22 @@ struct PlyVertex {
   }
 };
 
-/// The vertex and face elements of a header, checked, with the properties that matter.
-struct PlySurface {
-  PlyVertex vertex;
-  const PlyElement* face = nullptr;
-  const PlyProperty* corners = nullptr;
+/// The element of that name and its list of vertices, if the header has it.
+struct PlyCorners {
+  const PlyElement* element = nullptr;
+  const PlyProperty* list = nullptr;
 
-  PlySurface(const PlyHeader& header, std::string_view name) : vertex(header, name) {
-    for (const auto& element : header.elements)
-      if (element.name == "face") face = &element;
-    if (face == nullptr) return;  // reported as "has no faces" once the rest is known to be sound
-    corners = find_property(*face, "vertex_indices");
-    if (corners == nullptr) corners = find_property(*face, "vertex_index");
-    if (corners == nullptr || !corners->is_list)
-      fail_ply_header(name, face->line,
-                      "element 'face' has no list 'vertex_indices' or 'vertex_index'");
+  PlyCorners(const PlyHeader& header, std::string_view called, std::string_view name) {
+    for (const auto& other : header.elements)
+      if (other.name == called) element = &other;
+    if (element == nullptr) return;
+    list = find_property(*element, "vertex_indices");
+    if (list == nullptr) list = find_property(*element, "vertex_index");
+    if (list == nullptr || !list->is_list)
+      fail_ply_header(name, element->line,
+                      "element " + quote(called) +
+                          " has no list 'vertex_indices' or "
+                          "'vertex_index'");
   }
 };
 

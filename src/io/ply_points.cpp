@@ -87,7 +87,8 @@ bool is_ply_cloud(const std::filesystem::path& file) {
   try {
     bool vertices = false;
     for (const PlyElement& element : parse_ply_header(start, "").elements) {
-      if (element.name == "face" && element.count != 0) return false;
+      for (const std::string_view cells : {"face", "tristrips", "edge"})
+        if (element.name == cells && element.count != 0) return false;
       if (element.name == "vertex" && element.count != 0) vertices = true;
     }
     return vertices;

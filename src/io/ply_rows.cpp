@@ -38,6 +38,12 @@ class RowBytes : public BinaryNumbers<RowBytes> {
   std::uint64_t row_ = 0;
 };
 
+/// The elements that a surface has.
+struct RowLayout {
+  PlyVertex vertex;
+  PlyCorners face;
+};
+
 /// Bytes of a row where `corners`, if the element has it, is a list of three.
 std::uint64_t row_size(const PlyElement& element, const PlyProperty* corners,
                        std::string_view name) {
@@ -106,19 +112,19 @@ struct PlyRows::State {
     parse_header();
     if (header.format == PlyFormat::ascii)
       fail("is text, which is not read in parts: convert it to a binary .ply");
-    surface = std::make_unique<PlySurface>(header, name);
-    if (surface->face == nullptr || surface->face->count == 0)
+    surface = std::make_unique<RowLayout>(RowLayout{{header, name}, {header, "face", name}});
+    if (surface->face.element == nullptr || surface->face.element->count == 0)
       fail("has no faces; a surface needs at least one triangle");
     std::uint64_t at = header.size;
     for (const PlyElement& element : header.elements) {
       const bool has_vertices = &element == surface->vertex.element;
       if (element.properties.empty() || (element.count == 0 && !has_vertices)) continue;
-      const std::uint64_t row = row_size(element, surface->corners, name);
+      const std::uint64_t row = row_size(element, surface->face.list, name);
       if (element.count > (size - at) / row)
         fail("the header says " + std::to_string(element.count) + " " + quote(element.name) +
              " elements, but only " + std::to_string(size - at) + " bytes follow");
       if (has_vertices) vertices = {at, row};
-      if (&element == surface->face) faces = {at, row};
+      if (&element == surface->face.element) faces = {at, row};
       at += element.count * row;
     }
     check_end(at);
@@ -174,7 +180,7 @@ struct PlyRows::State {
   std::uint64_t size = 0;
   std::string head;  ///< which the header's names point into
   PlyHeader header;
-  std::unique_ptr<PlySurface> surface;
+  std::unique_ptr<RowLayout> surface;
   Rows vertices, faces;
 };
 
@@ -182,7 +188,7 @@ PlyRows::PlyRows(const std::filesystem::path& file) : state_(std::make_unique<St
 PlyRows::~PlyRows() = default;
 
 std::size_t PlyRows::vertex_count() const { return state_->surface->vertex.element->count; }
-std::size_t PlyRows::face_count() const { return state_->surface->face->count; }
+std::size_t PlyRows::face_count() const { return state_->surface->face.element->count; }
 
 void PlyRows::read_vertices(std::size_t first, std::span<std::array<double, 3>> positions) const {
   const PlyVertex& vertex = state_->surface->vertex;
@@ -195,11 +201,12 @@ void PlyRows::read_vertices(std::size_t first, std::span<std::array<double, 3>> 
 }
 
 void PlyRows::read_faces(std::size_t first, std::span<std::array<Index, 3>> corners) const {
-  const PlySurface& surface = *state_->surface;
+  const RowLayout& surface = *state_->surface;
   state_->each_row(
-      state_->faces, *surface.face, first, corners.size(), [&](RowBytes& source, std::size_t i) {
-        for (const PlyProperty& property : surface.face->properties) {
-          if (&property != surface.corners) {
+      state_->faces, *surface.face.element, first, corners.size(),
+      [&](RowBytes& source, std::size_t i) {
+        for (const PlyProperty& property : surface.face.element->properties) {
+          if (&property != surface.face.list) {
             source.skip(property.type, 1, last_property);
             continue;
           }
@@ -211,7 +218,8 @@ void PlyRows::read_faces(std::size_t first, std::span<std::array<Index, 3>> corn
           for (Index& v : corners[i]) {
             const std::int64_t index = source.whole(property.type, "a vertex of the face");
             if (index < 0 || static_cast<std::uint64_t>(index) >= vertex_count())
-              source.fail(bad_index(first + i, index, vertex_count()));
+              source.fail(
+                  bad_corner("face", static_cast<std::int64_t>(first + i), index, vertex_count()));
             v = static_cast<Index>(index);
           }
         }

@@ -1,29 +1,21 @@
 #include <plexway/io/points.hpp>
 
+#include <plexway/error.hpp>
+
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <string>
 
-#include "by_extension.hpp"
-#include "input_name.hpp"
+#include "extension.hpp"
 #include "output_file.hpp"
+#include "readers.hpp"
 
 namespace plexway::io {
 namespace {
 
 namespace fs = std::filesystem;
-using PointParser = Points (*)(std::string_view, std::string_view);
-
-constexpr std::array<std::string_view, 5> point_suffixes = {".xyz", ".ply", ".csv", ".las", ".laz"};
-constexpr std::array<PointParser, 5> point_parsers = {parse_xyz, parse_ply_points, parse_csv_points,
-                                                      parse_las, parse_las};
 constexpr std::array<std::string_view, 2> output_extensions = {".xyz", ".ply"};
-
-void refuse_pcd(const fs::path& file) {
-  if (InputName(file).extension == ".pcd")
-    throw NotBuiltError(file.string() +
-                        ": .pcd goes through PCL: see plexway/pcl/files.hpp, component pcl, which "
-                        "needs libpcl-dev; without it, .ply and .xyz");
-}
 
 void require_sound_points(const Points& points) {
   const auto fail = [](const std::string& cause) { throw UsageError("write_points: " + cause); };
@@ -68,17 +60,18 @@ void write_ply_cloud(OutputFile& out, const Points& points) {
 
 }  // namespace
 
-std::span<const std::string_view> point_extensions() { return point_suffixes; }
-std::span<const std::string_view> point_output_extensions() { return output_extensions; }
-
-Points read_points(const fs::path& file) {
-  refuse_pcd(file);
-  return read_by_extension<Points>(file, point_suffixes, point_parsers);
+void refuse_pcd(std::string_view extension, const std::string& name) {
+  if (extension == ".pcd")
+    throw NotBuiltError(name +
+                        ": .pcd goes through PCL: see plexway/pcl/files.hpp, component pcl, which "
+                        "needs libpcl-dev; without it, .ply and .xyz");
 }
 
+std::span<const std::string_view> point_output_extensions() { return output_extensions; }
+
 void write_points(const fs::path& file, const Points& points) {
-  refuse_pcd(file);
   const std::string extension = lower_extension(file);
+  refuse_pcd(extension, file.string());
   const bool text = extension == output_extensions[0];
   if (!text && extension != output_extensions[1])
     throw UsageError(unknown_extension(file, output_extensions));

@@ -8,15 +8,15 @@
 
 #include <plexway/io/regions.hpp>
 
+#include "cells.hpp"
 #include "number_type.hpp"
-#include "tet_checks.hpp"
 
 namespace plexway::io {
 
-/// The regions of what `take` takes; `name` stands for the file in messages.
-Regions parse_gmsh_regions(std::string_view bytes, std::string_view name, Take take);
-Regions parse_vtu_regions(std::string_view bytes, std::string_view name, Take take);
-Regions parse_vtk_regions(std::string_view bytes, std::string_view name, Take take);
+/// The regions of all cells that are taken; `name` stands for the file in messages.
+Regions parse_gmsh_regions(std::string_view bytes, std::string_view name);
+Regions parse_vtu_regions(std::string_view bytes, std::string_view name);
+Regions parse_vtk_regions(std::string_view bytes, std::string_view name);
 
 /// Names of cell data that hold regions, the best first.
 inline constexpr std::array<std::string_view, 4> region_names = {"region", "gmsh:physical",

@@ -1,33 +1,19 @@
 #include <plexway/io/regions.hpp>
 
-#include <plexway/io/mixed.hpp>
-
-#include "by_extension.hpp"
+#include "opened_file.hpp"
 #include "region_parsers.hpp"
 
 namespace plexway::io {
-namespace {
-
-using RegionParser = Regions (*)(std::string_view, std::string_view);
-
-template <Take take>
-constexpr std::array<RegionParser, 3> region_parsers = {
-    [](std::string_view bytes, std::string_view name) {
-      return parse_gmsh_regions(bytes, name, take);
-    },
-    [](std::string_view bytes, std::string_view name) {
-      return parse_vtu_regions(bytes, name, take);
-    },
-    [](std::string_view bytes, std::string_view name) {
-      return parse_vtk_regions(bytes, name, take);
-    }};
-constexpr std::array<std::string_view, 3> region_suffixes = {".msh", ".vtu", ".vtk"};
-
-}  // namespace
-
-Regions read_regions(const std::filesystem::path& file, bool mixed) {
-  return mixed ? read_by_extension<Regions>(file, region_suffixes, region_parsers<Take::mixed>)
-               : read_by_extension<Regions>(file, region_suffixes, region_parsers<Take::tets>);
+Regions read_regions(const std::filesystem::path& path) {
+  const OpenedFile file(path);
+  const std::string& extension = file.extension();
+  const auto parse = extension == ".msh"   ? parse_gmsh_regions
+                     : extension == ".vtu" ? parse_vtu_regions
+                     : extension == ".vtk" ? parse_vtk_regions
+                                           : nullptr;
+  if (parse == nullptr)
+    throw InputError(file.name() + ": regions are read from .msh, .vtu and .vtk");
+  return parse(file.bytes(), file.name());
 }
 
 }  // namespace plexway::io

@@ -9,6 +9,7 @@
 #include <plexway/io/triangles.hpp>
 
 #include "bytes.hpp"
+#include "polygons.hpp"
 #include "surface_checks.hpp"
 #include "text_scanner.hpp"
 
@@ -134,11 +135,17 @@ Triangles read_binary(std::string_view bytes, std::string_view name) {
          " bytes; the header alone takes 84)");
   const std::uint64_t facets = load<std::uint32_t>(bytes.data() + 80, std::endian::little);
   const std::uint64_t expected = preamble + facets * facet_size;
-  if (bytes.size() != expected)
+  // As many bytes more as facets take are facets that the header does not count.
+  if (bytes.size() < expected ||
+      (bytes.size() > expected && (bytes.size() - expected) % facet_size == 0))
     fail("binary STL of " + std::to_string(facets) + " facets takes " + std::to_string(expected) +
          " bytes, but the file has " + std::to_string(bytes.size()));
 
   Triangles surface;
+  if (bytes.size() > expected)
+    surface.report.notes.push_back(std::to_string(bytes.size() - expected) +
+                                   " bytes behind the last of " + std::to_string(facets) +
+                                   " facets are passed over");
   surface.triangles.reserve(facets);
   surface.positions.reserve(facets / 2 + 2);  // of closed surfaces exactly (Euler), but for handles
   VertexMerger merger(surface.positions, facets / 2);
@@ -191,24 +198,21 @@ void expect(TextScanner& scanner, Words... expected) {
 }
 
 /// From behind `facet` to behind `endfacet`.
-void read_facet(TextScanner& scanner, std::size_t facet, VertexMerger& merger, Triangles& surface) {
+void read_facet(TextScanner& scanner, std::size_t facet, VertexMerger& merger, Faces& face) {
   scanner.next_line();  // the normal follows from the corners and is often nan
   expect(scanner, "outer", "loop");
-  Fan fan(surface);
   for (;;) {
     if (!scanner.to_content()) scanner.fail("the file ends inside facet " + std::to_string(facet));
     const auto word = scanner.field();
     if (same_word(word, "endloop")) break;
     if (!same_word(word, "vertex"))
       scanner.fail("expected 'vertex' or 'endloop', found " + quote(word));
-    const double x = scanner.number("coordinate x");
-    const double y = scanner.number("coordinate y");
-    const double z = scanner.number("coordinate z");
-    const std::uint32_t vertex = merger.number_of({x, y, z});
+    const std::uint32_t vertex = merger.number_of(scanner.position3());
     if (vertex == VertexMerger::empty) scanner.fail("more vertices than 32 bits count");
-    fan.corner(vertex);
+    face.corner(vertex);
   }
-  if (fan.corners() < 3) scanner.fail(too_few_corners(facet, fan.corners()));
+  if (face.corners() < 3) scanner.fail(too_few_corners(facet, face.corners()));
+  face.end_face();
   expect(scanner, "endfacet");
 }
 
@@ -216,6 +220,7 @@ Triangles read_ascii(std::string_view text, std::string_view name) {
   TextScanner scanner(text, name);
   Triangles surface;
   VertexMerger merger(surface.positions);
+  Faces faces(surface.triangles);
   std::size_t facets = 0;
   while (scanner.to_content()) {  // several solids may follow each other
     expect(scanner, "solid");
@@ -226,10 +231,11 @@ Triangles read_ascii(std::string_view text, std::string_view name) {
       if (same_word(word, "endsolid")) break;
       if (!same_word(word, "facet"))
         scanner.fail("expected 'facet' or 'endsolid', found " + quote(word));
-      read_facet(scanner, facets++, merger, surface);
+      read_facet(scanner, facets++, merger, faces);
     }
     scanner.next_line();  // the name again
   }
+  surface.report.split_polygons = faces.cut(surface.positions);
   return surface;
 }
 

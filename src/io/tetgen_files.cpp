@@ -5,7 +5,7 @@
 
 #include <plexway/io/tets.hpp>
 
-#include "tet_checks.hpp"
+#include "cells.hpp"
 #include "text_scanner.hpp"
 
 namespace plexway::io {
@@ -76,10 +76,7 @@ Tets parse_node_ele(NamedText node, NamedText ele) {
   for (std::uint64_t i = 0; i < vertices; ++i) {
     to_item(nodes, "vertices", i, vertices);
     read_number(nodes, "vertex", i, base);
-    const double x = nodes.number("coordinate x");
-    const double y = nodes.number("coordinate y");
-    const double z = nodes.number("coordinate z");
-    solid.positions.push_back({x, y, z});
+    solid.positions.push_back(nodes.position3());
     nodes.next_line();  // attributes, boundary marker
   }
   require_end(nodes, "vertices", vertices);
@@ -104,15 +101,17 @@ Tets parse_node_ele(NamedText node, NamedText ele) {
     for (std::uint64_t c = 0; c < corners; ++c) {
       const std::int64_t vertex = elements.integer("a vertex of the tetrahedron");
       if (vertex < base || static_cast<std::uint64_t>(vertex - base) >= vertices)
-        elements.fail(bad_corner(first + static_cast<std::int64_t>(i), vertex, vertices) +
-                      ", numbered from " + std::to_string(base));
+        elements.fail(
+            bad_corner("tetrahedron", first + static_cast<std::int64_t>(i), vertex, vertices) +
+            ", numbered from " + std::to_string(base));
       if (c < 4) tet[c] = static_cast<std::uint32_t>(vertex - base);
     }
     solid.tets.push_back(tet);
     elements.next_line();  // attributes
   }
   require_end(elements, "tetrahedra", tets);
-  require_tets(solid, {}, ele.name);
+  if (solid.tets.empty())
+    throw InputError(std::string(ele.name) + ": has no tetrahedra; it has no cells at all");
   return solid;
 }
 

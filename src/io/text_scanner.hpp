@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -15,6 +16,8 @@
 
 namespace plexway::io {
 
+inline constexpr std::string_view axis_names[3] = {"coordinate x", "coordinate y", "coordinate z"};
+
 /// A text without the byte order mark (UTF-8) that some editors put in front.
 inline std::string_view without_mark(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
@@ -24,7 +27,8 @@ inline std::string_view without_mark(std::string_view text) {
 /// Walks over the fields of a text, line by line, and knows the number of the line it is on.
 ///
 /// Nothing is copied. A field ends at a blank, at the line's end, or at `#`, which starts a
-/// comment. Numbers are read by std::from_chars, so the locale plays no part.
+/// comment. Lines end as the first of them does, at \n or, as on old Macs, at \r alone. Numbers are
+/// read by std::from_chars, so the locale plays no part.
 class TextScanner {
  public:
   /// What a `\` just before a line's end means.
@@ -38,6 +42,9 @@ class TextScanner {
         line_(first_line),
         joins_lines_(backslash == Backslash::joins_lines) {
     if (first_line == 1) at_ += text.size() - without_mark(text).size();
+    const std::size_t end = text.find_first_of("\r\n");
+    if (end != text.npos && text[end] == '\r' && (end + 1 == text.size() || text[end + 1] != '\n'))
+      newline_ = '\r';
   }
 
   std::size_t line() const { return line_; }
@@ -58,7 +65,7 @@ class TextScanner {
         at_ = next;
         ++line_;
       } else {
-        return *at_ != '\n' && *at_ != '#';
+        return *at_ != newline_ && *at_ != '#';
       }
     }
     return false;
@@ -74,7 +81,7 @@ class TextScanner {
 
   /// Skips the rest of this line; false when it was the last.
   bool next_line() {
-    const void* newline = at_ == end_ ? nullptr : std::memchr(at_, '\n', bytes_left());
+    const void* newline = at_ == end_ ? nullptr : std::memchr(at_, newline_, bytes_left());
     if (newline == nullptr) {
       at_ = end_;
       return false;
@@ -120,6 +127,16 @@ class TextScanner {
     return value;
   }
 
+  /// Takes three numbers, a place in space.
+  std::array<double, 3> position3() {
+    std::array<double, 3> place{};
+    for (std::size_t k = 0; k < 3; ++k) place[k] = number(axis_names[k]);
+    return place;
+  }
+
+  /// Goes back over the last `bytes`, all of them on this line.
+  void back(std::size_t bytes) { at_ -= bytes; }
+
   /// Takes a whole number; `what` names it in messages. `also_ends` is a character that may
   /// follow it besides what ends a field.
   std::int64_t integer(std::string_view what, char also_ends = ' ') {
@@ -144,20 +161,21 @@ class TextScanner {
   }
 
  private:
-  static bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+  bool is_blank(char c) const {
+    return c == ' ' || c == '\t' || c == '\v' || c == '\f' ||
+           (c != newline_ && (c == '\r' || c == '\n'));
   }
 
   [[gnu::always_inline]] bool ends_field(const char* at) const {
-    return at == end_ || is_blank(*at) || *at == '\n' || *at == '#' || joined(at) != nullptr;
+    return at == end_ || is_blank(*at) || *at == newline_ || *at == '#' || joined(at) != nullptr;
   }
 
   /// The start of the next line if there is a backslash at `at` that joins it to this one.
   const char* joined(const char* at) const {
     if (*at != '\\' || !joins_lines_) return nullptr;
     const char* next = at + 1;
-    if (next != end_ && *next == '\r') ++next;
-    return next != end_ && *next == '\n' ? next + 1 : nullptr;
+    if (next != end_ && *next == '\r' && newline_ != '\r') ++next;
+    return next != end_ && *next == newline_ ? next + 1 : nullptr;
   }
 
   /// Whether a number that from_chars calls out of range is one that rounds to zero.
@@ -174,6 +192,7 @@ class TextScanner {
   std::string_view name_;
   std::size_t line_;
   bool joins_lines_;
+  char newline_ = '\n';
 };
 
 }  // namespace plexway::io

@@ -64,6 +64,9 @@ class TextValues {
   /// Goes to the next line, whatever is left of this one; false at the end of the file.
   bool end_line() { return scanner_.next_line(); }
 
+  /// Where numbers begin: in text on this line or the next, in bytes behind the line's end.
+  void start_values() {}
+
   /// Like end_line, but nothing may be left: for what is written one item a line.
   void end_item() {
     if (scanner_.to_field()) fail("the line goes on with " + quote(scanner_.field()));
@@ -131,6 +134,8 @@ class ByteValues : public BinaryNumbers<ByteValues> {
     at_ = newline == std::string_view::npos ? bytes_.size() : newline + 1;
     return newline != std::string_view::npos;
   }
+
+  void start_values() { end_line(); }
 
   void end_item() {}
 

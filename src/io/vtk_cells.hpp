@@ -7,10 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include <plexway/io/tets.hpp>
-
+#include "cells.hpp"
 #include "number_type.hpp"
-#include "tet_checks.hpp"
 #include "value_source.hpp"
 
 namespace plexway::io {
@@ -25,23 +23,9 @@ struct VtkCells {
 /// The number type behind a name of VTK's XML ("Float64") or legacy files ("double").
 std::optional<NumberType> vtk_number_type(std::string_view name);
 
-/// Adds to `solid` the corners of the cells that are taken, of the first or a higher order, and
-/// counts the others. The same for both kinds of file.
-class VtkTets {
- public:
-  VtkTets(Mixed& solid, OtherCells& others, Take take)
-      : solid_(solid), others_(others), take_(take) {}
-
-  /// What is wrong with cell `cell` of type `type`, or nothing.
-  std::optional<std::string> add(const VtkCells& cells, std::size_t cell, std::int64_t type);
-
- private:
-  bool add_other(const VtkCells& cells, std::size_t cell, std::int64_t type);
-
-  Mixed& solid_;
-  OtherCells& others_;
-  Take take_;
-};
+/// Takes cell `cell`, of type `type`. Returns what is wrong with it, or nothing.
+std::optional<std::string> add_vtk_cell(CellTaker& taker, const VtkCells& cells, std::size_t cell,
+                                        std::int64_t type);
 
 /// Reads `count` points and appends them to `solid`.
 template <class Source>

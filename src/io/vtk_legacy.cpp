@@ -25,8 +25,8 @@ template <class Source>
 class LegacyReader {
  public:
   /// `regions`: where those of the cells go, if they are wanted.
-  LegacyReader(Source in, std::string_view name, Take take, Regions* regions)
-      : in_(in), name_(name), take_(take), regions_(regions) {}
+  LegacyReader(Source in, std::string_view name, Regions* regions)
+      : in_(in), name_(name), regions_(regions) {}
 
   Mixed read(bool version5) {
     // What comes after these three is data at points and cells.
@@ -35,11 +35,9 @@ class LegacyReader {
       const std::string keyword = lower_case(word);
       if (keyword == "dataset") {
         const std::string_view kind = in_.word();
-        if (lower_case(kind) == "polydata" && take_ != Take::tets) return read_polydata(version5);
+        if (lower_case(kind) == "polydata") return read_polydata(version5);
         if (lower_case(kind) != "unstructured_grid")
-          in_.fail("the dataset is " + quote(kind) +
-                   (take_ == Take::tets ? "; tetrahedra need an UNSTRUCTURED_GRID"
-                                        : "; read are UNSTRUCTURED_GRID and POLYDATA"));
+          in_.fail("the dataset is " + quote(kind) + "; read are UNSTRUCTURED_GRID and POLYDATA");
       } else if (keyword == "field") {
         skip_field();
       } else if (keyword == "metadata") {
@@ -61,7 +59,7 @@ class LegacyReader {
         in_.fail("expected POINTS, CELLS or CELL_TYPES, found " + quote(word));
       }
     }
-    require_cells(solid_, others_, take_, name_);
+    taker_.finish(name_);
     if (regions_ != nullptr) read_regions();
     return std::move(solid_);
   }
@@ -106,7 +104,7 @@ class LegacyReader {
           const std::uint64_t components = count("components", i8, 1);
           if (count("tuples", i8, 1) != tuples) in_.fail("an array of another number of tuples");
           const NumberType type = number_type();
-          in_.end_line();
+          in_.start_values();
           array(name, components, type);
           --left;
         }
@@ -124,12 +122,12 @@ class LegacyReader {
           if (next != "lookup_table") in_.fail("expected LOOKUP_TABLE, found " + quote(next));
         }
         in_.word();
-        in_.end_line();
+        in_.start_values();
         array(name, components, type);
       } else if (keyword == "vectors" || keyword == "normals" || keyword == "tensors") {
         const std::string name(in_.word());
         const NumberType type = number_type();
-        in_.end_line();
+        in_.start_values();
         array(name, keyword == "tensors" ? 9 : 3, type);
       } else {
         in_.fail("data under " + quote(word) + " are not read: regions must come before");
@@ -162,15 +160,14 @@ class LegacyReader {
         if (!has_points_) in_.fail(std::string(word) + " come before POINTS");
         cells_ = {};
         version5 ? cells5() : cells();
-        VtkTets taken(solid_, others_, take_);
         for (std::uint64_t c = 0; c < cells_.ends.size(); ++c)
-          if (const auto wrong = taken.add(cells_, c, type)) in_.fail(*wrong);
+          if (const auto wrong = add_vtk_cell(taker_, cells_, c, type)) in_.fail(*wrong);
       } else {
         in_.fail("expected POINTS, LINES or POLYGONS, found " + quote(word));
       }
     }
     if (!has_points_) in_.fail("the file has no POINTS");
-    require_cells(solid_, others_, take_, name_);
+    taker_.finish(name_);
     return std::move(solid_);
   }
 
@@ -200,7 +197,7 @@ class LegacyReader {
       const std::uint64_t components = count("components", i8, 1);
       const std::uint64_t tuples = count("tuples", i8, components == 0 ? 1 : components);
       const NumberType type = number_type();
-      in_.end_line();
+      in_.start_values();
       in_.skip(type, components * tuples, "a value of the array");
       ++i;
     }
@@ -209,7 +206,7 @@ class LegacyReader {
   void points() {
     const std::uint64_t points = count("points", i8, 3);
     const NumberType type = number_type();
-    in_.end_line();
+    in_.start_values();
     if (points > in_.most(type) / 3)
       in_.fail("there should be " + std::to_string(points) + " points, but only " +
                std::to_string(in_.bytes_left()) + " bytes follow");
@@ -221,7 +218,7 @@ class LegacyReader {
   void cells() {
     const std::uint64_t cells = count("cells", i32, 1);
     const std::uint64_t size = count("numbers that make up the cells", i32, 1);
-    in_.end_line();
+    in_.start_values();
     if (size < cells)
       in_.fail(std::to_string(cells) + " cells cannot be made of " + std::to_string(size) +
                " numbers");
@@ -279,7 +276,7 @@ class LegacyReader {
     if (lower_case(word) != keyword)
       in_.fail("expected " + quote(keyword) + ", found " + quote(word));
     const NumberType type = number_type();
-    in_.end_line();
+    in_.start_values();
     return type;
   }
 
@@ -289,14 +286,13 @@ class LegacyReader {
 
   void types() {
     const std::uint64_t types = count("types of cells", i32, 1);
-    in_.end_line();
+    in_.start_values();
     if (types != cells_.ends.size())
       in_.fail("there are " + std::to_string(types) + " types for " +
                std::to_string(cells_.ends.size()) + " cells");
-    VtkTets tets(solid_, others_, take_);
     for (std::uint64_t c = 0; c < types; ++c) {
-      if (const auto wrong = tets.add(cells_, c, in_.whole(i32, "the type of a cell")))
-        in_.fail(*wrong);
+      const std::int64_t type = in_.whole(i32, "the type of a cell");
+      if (const auto wrong = add_vtk_cell(taker_, cells_, c, type)) in_.fail(*wrong);
       if (regions_ != nullptr) owners_.take(solid_, c);
     }
     has_types_ = true;
@@ -304,18 +300,17 @@ class LegacyReader {
 
   Source in_;
   std::string_view name_;
-  Take take_;
   Regions* regions_;
   CellOwners owners_;
   Mixed solid_;
   VtkCells cells_;
-  OtherCells others_;
+  CellTaker taker_{solid_};
   bool has_points_ = false;
   bool has_cells_ = false;
   bool has_types_ = false;
 };
 
-Mixed parse(std::string_view bytes, std::string_view name, Take take, Regions* regions = nullptr) {
+Mixed parse(std::string_view bytes, std::string_view name, Regions* regions = nullptr) {
   // The first line looks like a comment, and the second holds anything.
   const auto fail = [&](std::size_t line, const std::string& cause) {
     throw InputError(std::string(name) + ":" + std::to_string(line) + ": " + cause);
@@ -336,30 +331,23 @@ Mixed parse(std::string_view bytes, std::string_view name, Take take, Regions* r
   if (mode != "ascii" && mode != "binary")
     scanner.fail("expected ASCII or BINARY, found " + quote(word));
   scanner.next_line();
-  if (mode == "ascii")
-    return LegacyReader(TextValues(scanner), name, take, regions).read(version >= 5);
+  if (mode == "ascii") return LegacyReader(TextValues(scanner), name, regions).read(version >= 5);
   const std::size_t at = bytes.size() - scanner.bytes_left();
-  return LegacyReader(ByteValues(bytes, name, std::endian::big, at), name, take, regions)
+  return LegacyReader(ByteValues(bytes, name, std::endian::big, at), name, regions)
       .read(version >= 5);
 }
 
 }  // namespace
 
 Tets parse_vtk(std::string_view bytes, std::string_view name) {
-  return tets_of(parse(bytes, name, Take::tets));
+  return tets_of(parse(bytes, name), name);
 }
 
-Mixed parse_vtk_cells(std::string_view bytes, std::string_view name) {
-  return parse(bytes, name, Take::any);
-}
+Mixed parse_vtk_cells(std::string_view bytes, std::string_view name) { return parse(bytes, name); }
 
-Mixed parse_vtk_mixed(std::string_view bytes, std::string_view name) {
-  return parse(bytes, name, Take::mixed);
-}
-
-Regions parse_vtk_regions(std::string_view bytes, std::string_view name, Take take) {
+Regions parse_vtk_regions(std::string_view bytes, std::string_view name) {
   Regions regions;
-  (void)parse(bytes, name, take, &regions);
+  (void)parse(bytes, name, &regions);
   return regions;
 }
 

@@ -25,10 +25,9 @@ namespace {
 class VtuReader {
  public:
   /// `regions`: where those of the cells go, if they are wanted.
-  VtuReader(std::string_view bytes, std::string_view name, Take take, Regions* regions = nullptr)
+  VtuReader(std::string_view bytes, std::string_view name, Regions* regions = nullptr)
       : bytes_(bytes),
         name_(name),
-        take_(take),
         regions_(regions),
         room_(least_room + most_packed * bytes.size()) {}
 
@@ -44,18 +43,16 @@ class VtuReader {
     const pugi::xml_node root = document_.child("VTKFile");
     if (!root) fail(1, "expected the element VTKFile");
     const std::string_view type = root.attribute("type").value();
-    const bool polygons = type == "PolyData" && take_ != Take::tets;
+    const bool polygons = type == "PolyData";
     if (type != "UnstructuredGrid" && !polygons)
-      fail(root, "the file is of type " + quote(type) +
-                     (take_ == Take::tets ? "; tetrahedra need an UnstructuredGrid"
-                                          : "; read are UnstructuredGrid and PolyData"));
+      fail(root, "the file is of type " + quote(type) + "; read are UnstructuredGrid and PolyData");
     read_encoding(root);
     const pugi::xml_node appended = root.child("AppendedData");
     appended_base64_ = std::string_view(appended.attribute("encoding").value()) == "base64";
     for (const pugi::xml_node piece :
          root.child(polygons ? "PolyData" : "UnstructuredGrid").children("Piece"))
       read_piece(piece, polygons);
-    if (ids_ == nullptr || !others_.empty()) require_cells(solid_, others_, take_, name_);
+    taker_.finish(name_);
     return std::move(solid_);
   }
 
@@ -194,9 +191,8 @@ class VtuReader {
     const std::uint64_t cells = piece.attribute(count) ? number(piece, count) : 0;
     if (cells == 0) return;
     const VtkCells list = read_list(piece, kind, points, cells, base);
-    VtkTets taken(solid_, others_, take_);
     for (std::uint64_t c = 0; c < cells; ++c)
-      if (const auto wrong = taken.add(list, c, type)) fail(piece.child(kind), *wrong);
+      if (const auto wrong = add_vtk_cell(taker_, list, c, type)) fail(piece.child(kind), *wrong);
   }
 
   void read_cells(pugi::xml_node piece, std::uint64_t points, std::uint64_t cells,
@@ -205,11 +201,10 @@ class VtuReader {
     const std::vector<bool> ghosts = ghosts_of(piece, cells);
     values(cell_array(piece, "Cells", "types"), "types of cells", cells, 1,
            [&](auto& in, NumberType type) {
-             VtkTets tets(solid_, others_, take_);
              for (std::uint64_t c = 0; c < cells; ++c) {
                const std::int64_t kind = in.whole(type, "the type of a cell");
                if (ghosts[c]) continue;
-               if (const auto wrong = tets.add(list, c, kind)) in.fail(*wrong);
+               if (const auto wrong = add_vtk_cell(taker_, list, c, kind)) in.fail(*wrong);
                if (regions_ != nullptr) owners_.take(solid_, regions_of_cells_.size() + c);
              }
            });
@@ -317,7 +312,6 @@ class VtuReader {
 
   std::string_view bytes_;
   std::string_view name_;
-  Take take_;
   Regions* regions_;
   CellOwners owners_;
   std::vector<std::int64_t> regions_of_cells_;
@@ -330,7 +324,7 @@ class VtuReader {
   VtuEncoding encoding_;
   std::string_view compressor_;
   Mixed solid_;
-  OtherCells others_;
+  CellTaker taker_{solid_};
   std::vector<std::uint64_t>* ids_ = nullptr;
   std::string* ids_name_ = nullptr;  ///< where ids_ is
 };
@@ -338,21 +332,17 @@ class VtuReader {
 }  // namespace
 
 Tets parse_vtu(std::string_view bytes, std::string_view name) {
-  return tets_of(VtuReader(bytes, name, Take::tets).read());
+  return tets_of(VtuReader(bytes, name).read(), name);
 }
 
 Mixed parse_vtu_cells(std::string_view bytes, std::string_view name) {
-  return VtuReader(bytes, name, Take::any).read();
-}
-
-Mixed parse_vtu_mixed(std::string_view bytes, std::string_view name) {
-  return VtuReader(bytes, name, Take::mixed).read();
+  return VtuReader(bytes, name).read();
 }
 
 SurfaceFilePart parse_vtu_part(std::string_view bytes, std::string_view name) {
   SurfaceFilePart part;
   part.name = name;
-  Mixed cells = VtuReader(bytes, name, Take::mixed).read_part(part);
+  Mixed cells = VtuReader(bytes, name).read_part(part);
   if (!cells.edges.empty() || !cells.tets.empty())
     throw InputError(part.name + ": has cells besides polygons, of which a part is made");
   part.positions = std::move(cells.positions);
@@ -360,9 +350,9 @@ SurfaceFilePart parse_vtu_part(std::string_view bytes, std::string_view name) {
   return part;
 }
 
-Regions parse_vtu_regions(std::string_view bytes, std::string_view name, Take take) {
+Regions parse_vtu_regions(std::string_view bytes, std::string_view name) {
   Regions regions;
-  (void)VtuReader(bytes, name, take, &regions).read();
+  (void)VtuReader(bytes, name, &regions).read();
   return regions;
 }
 
@@ -376,27 +366,23 @@ Regions parse_vtu_regions(std::string_view bytes, std::string_view name, Take ta
 namespace plexway::io {
 
 SurfaceFilePart parse_vtu_part(std::string_view bytes, std::string_view name) {
-  (void)parse_vtu_mixed(bytes, name);
+  (void)parse_vtu_cells(bytes, name);
   return {};
 }
 
-Mixed parse_vtu_cells(std::string_view bytes, std::string_view name) {
-  return parse_vtu_mixed(bytes, name);
-}
-
-Mixed parse_vtu_mixed(std::string_view, std::string_view) {
+Mixed parse_vtu_cells(std::string_view, std::string_view) {
   throw NotBuiltError(
       "this plexway reads no .vtu: install libpugixml-dev and build it again, or save the file as "
       "legacy .vtk");
 }
 
-Regions parse_vtu_regions(std::string_view bytes, std::string_view name, Take) {
-  (void)parse_vtu_mixed(bytes, name);
+Regions parse_vtu_regions(std::string_view bytes, std::string_view name) {
+  (void)parse_vtu_cells(bytes, name);
   return {};
 }
 
 Tets parse_vtu(std::string_view bytes, std::string_view name) {
-  Mixed none = parse_vtu_mixed(bytes, name);
+  Mixed none = parse_vtu_cells(bytes, name);
   return {std::move(none.positions), std::move(none.tets)};
 }
 

@@ -44,7 +44,6 @@ TEST_CASE("bad files are refused by every command with file, line and cause") {
       {"index.obj", triangle + "f 1 2 3\nf 1 2 9\n", ":5: "},
       {"negative.obj", triangle + "f 1 2 -7\n", ":4: "},
       {"short.obj", triangle + "f 1 2\n", ":4: "},
-      {"no_faces.obj", triangle, ": "},
       {"empty.obj", "", ": "},
       {"words.obj", "v one two three\n", ":1: "},
       {"truncated.off", off.substr(0, off.size() / 2), ":"},
@@ -66,7 +65,7 @@ TEST_CASE("files that are not there, or no domain, are bad input") {
   const Folder folder;
   const std::string missing = (folder.path() / "missing.obj").string();
   check_refused(run_tool({"distance", missing, "-s", "vertex:0"}), 3, missing + ": no such file");
-  const std::string text = folder.write("notes.txt", "hello");
+  const std::string text = folder.write("notes.md", "hello");
   check_refused(run_tool({"distance", text, "-s", "vertex:0"}), 3, text + ": ");
   const std::string bare = folder.write("bare", "hello");
   check_refused(run_tool({"distance", bare, "-s", "vertex:0"}), 3, bare + ": ");

@@ -68,8 +68,8 @@ TEST_CASE("bad clouds are refused with file, line and cause") {
   const Folder folder;
   const std::string nan = folder.write("nan.xyz", "0 0 0\n1 nan 0\n");
   for (const char* command : {"distance", "bench"})
-    check_refused(run_tool({command, nan, "-s", "vertex:0"}), 3, "nan.xyz:2: coordinate y");
-  check_refused(run_tool({"info", nan}), 3, "nan.xyz:2: coordinate y");
+    check_refused(run_tool({command, nan, "-s", "vertex:0"}), 3, "nan.xyz:2: y of point 1");
+  check_refused(run_tool({"info", nan}), 3, "nan.xyz:2: y of point 1");
   check_refused(distance(folder.path() / "none.xyz"), 3, "no such file");
   check_refused(run_tool({"distance", folder.write("a.xyz", few), "-s", "vertex:5"}), 3,
                 "out of range: the vertices are 0 to 4");
@@ -85,7 +85,7 @@ TEST_CASE("what a cloud can be taken as, and what not") {
   const std::string ply = folder.path() / "a.ply";
   plexway::io::write_points(ply, plexway::io::read_points(xyz));
   CHECK(distance(ply, {"--json"}).json()["kind"] == "cloud");
-  check_refused(distance(ply, {"--as", "surface"}), 3, "has no faces");
+  check_refused(distance(ply, {"--as", "surface"}), 3, "is a cloud, which cannot be taken as a");
 }
 
 TEST_CASE("options of clouds: values that cannot be, and domains that are none") {

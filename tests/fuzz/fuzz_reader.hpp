@@ -64,11 +64,11 @@ template <class Parser>
 int check_reader(Parser parse, const std::uint8_t* data, std::size_t size) {
   return check_input("input", [&] {
     const auto cells = parse({reinterpret_cast<const char*>(data), size}, "input");
-    require(!cells.positions.empty(), "there are points");
     require_finite(cells.positions);
     constexpr bool mixed = requires { cells.edges; };
     if constexpr (mixed) require_in_range(cells.edges, cells.positions.size());
     if constexpr (requires { cells.triangles; }) {
+      require(mixed || !cells.positions.empty(), "there are points");
       require(mixed || !cells.triangles.empty(), "a surface has faces");
       require_in_range(cells.triangles, cells.positions.size());
     }

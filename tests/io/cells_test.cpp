@@ -156,7 +156,7 @@ TEST_CASE("polygons of .vtp and legacy POLYDATA become triangles") {
   } catch (const NotBuiltError&) {
   }
   CHECK(complaint(io::parse_vtk, "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n") ==
-        "mesh:4: the dataset is 'POLYDATA'; tetrahedra need an UNSTRUCTURED_GRID");
+        "mesh:5: the file has no POINTS");
   CHECK(complaint(io::parse_vtk_cells,
                   "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 1 float\n0 0 0\n"
                   "POLYGONS 1 4\n3 0 0 1\n") ==
@@ -167,12 +167,14 @@ TEST_CASE("tetrahedra win over what is beside them, and what no domain is made o
   const std::string points =
       "# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"
       "POINTS 5 float\n0 0 0 1 0 0 0 1 0 0 0 1 1 1 1\n";
-  const auto both = io::parse_vtk_cells(
-      points + "CELLS 2 11\n4 0 1 2 3\n5 0 1 2 3 4\nCELL_TYPES 2\n10 14\n", "f");
-  CHECK(both.tets.size() == 1);
+  const std::string both = points + "CELLS 3 12\n4 0 1 2 3\n3 0 1 2\n2 3 4\nCELL_TYPES 3\n10 5 3\n";
+  const io::Tets solid = io::parse_vtk(both, "f");
+  CHECK(solid.tets.size() == 1);
+  CHECK(solid.report.passed_over_text() == "1 triangles, 1 lines");
+  CHECK(io::parse_vtk_cells(both, "f").triangles.size() == 1);
   CHECK(complaint(io::parse_vtk_cells,
-                  points + "CELLS 2 10\n3 0 1 2\n5 0 1 2 3 4\nCELL_TYPES 2\n5 14\n") ==
-        "mesh: has 1 pyramids; a domain is made of lines, polygons and tetrahedra");
+                  points + "CELLS 2 11\n4 0 1 2 3\n5 0 1 2 3 4\nCELL_TYPES 2\n10 41\n") ==
+        "mesh: has 1 sets of points, which are not read: a domain without them would have holes");
 }
 
 TEST_CASE("glTF is where its nodes put it") {
@@ -219,7 +221,7 @@ TEST_CASE("glTF that is packed, elsewhere or broken is refused in one line") {
     return complaint(io::parse_gltf, broken.replace(broken.find(from), from.size(), to));
   };
   CHECK_THAT(said(R"("nodes")", R"("extensionsRequired":["KHR_draco_mesh_compression"],"nodes")"),
-             Contains("needs the extension 'KHR_draco_mesh_compression'"));
+             Contains("is packed (KHR_draco_mesh_compression), which is not read; unpack it"));
   CHECK_THAT(said("data:;base64,", "mesh.bin?"), Contains("in another file"));
   CHECK_THAT(said(R"("byteLength":36)", R"("byteLength":35)"), Contains("fewer numbers"));
   CHECK_THAT(said(R"("byteLength":6})", R"("byteLength":600})"), Contains("outside its buffer"));

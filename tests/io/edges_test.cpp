@@ -128,11 +128,10 @@ TEST_CASE("read_edges: the extension picks the format") {
   const auto named = [&](const char* name) { return (folder.path() / name).string(); };
   CHECK(complaint_of(named("none.edges")) == named("none.edges") + ": no such file");
   CHECK(complaint_of(folder.path()) == folder.path().string() + ": is a directory, not a file");
-  CHECK(complaint_of(folder.write("w.stl", "x")) ==
-        named("w.stl") + ": unknown extension '.stl'; known are .obj .edges");
+  CHECK(complaint_of(folder.write("w.off", "OFF 3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")) ==
+        named("w.off") + ": has faces but no lines; read it as a surface");
   CHECK(complaint_of(folder.write("bad.edges", "0 1\n0\n")) ==
         named("bad.edges") + ":2: the line ends before its second vertex");
-  CHECK(plexway::io::edge_extensions().size() == 2);
 }
 
 }  // namespace edges_test

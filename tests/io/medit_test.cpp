@@ -43,9 +43,7 @@ TEST_CASE("medit: other sections are passed over") {
                             vertices() +
                             "Edges 1\n1 2 0\nTriangles\n2\n1 2 3 5\n1 2 4 5\nQuadrilaterals 1\n"
                             "1 2 3 4 0\nSomethingNew\n2\n1 2 nan\n-3 4 .5\n" +
-                            tetrahedra +
-                            "Hexahedra 1\n1 2 3 4 5 6 1 2 0\nPrisms 1\n1 2 3 4 5 6 0\n"
-                            "Pyramids 1 1 2 3 4 5 0\nEnd\n",
+                            tetrahedra + "Hexahedra 0\nPrisms\n0\nEnd\n",
                         "mesh"));
 }
 
@@ -57,7 +55,7 @@ TEST_CASE("medit: several sections of tetrahedra, quadratic ones among them") {
 
 TEST_CASE("medit: without tetrahedra it says what there is") {
   CHECK(medit_complaint(head + vertices() + "Triangles 1\n1 2 3 0\nEdges 2\n1 2 0 2 3 0\nEnd\n") ==
-        "mesh: has no tetrahedra; it has 1 triangles, 2 edges");
+        "mesh: has no tetrahedra; it has 1 triangles, 2 lines");
   CHECK(medit_complaint(head + vertices() + "Tetrahedra 0\n") ==
         "mesh: has no tetrahedra; it has no cells at all");
 }
@@ -65,8 +63,8 @@ TEST_CASE("medit: without tetrahedra it says what there is") {
 TEST_CASE("medit: what is wrong is named with its line") {
   CHECK(medit_complaint("") == "mesh:1: expected MeshVersionFormatted, found ''");
   CHECK(medit_complaint("solid x\n") == "mesh:1: expected MeshVersionFormatted, found 'solid'");
-  CHECK(medit_complaint("MeshVersionFormatted 1\nDimension 2\n") ==
-        "mesh:2: the dimension is 2; a solid needs 3");
+  CHECK(medit_complaint("MeshVersionFormatted 1\nDimension 4\n") ==
+        "mesh:2: the dimension is 4; 2 and 3 are read");
   CHECK(medit_complaint(head + tetrahedra) == "mesh:7: the file ends without a section Vertices");
   CHECK(medit_complaint(head + vertices() + "Tetrahedra\n1\n1 2 3 7 0\n") ==
         "mesh:13: tetrahedron 1 names vertex 7, but the file has 6 vertices");

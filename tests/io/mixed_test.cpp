@@ -48,7 +48,7 @@ std::string gmsh(const std::string& elements) {
 TEST_CASE("lines, triangles and tetrahedra come from one .vtk") {
   const std::string file = vtk("CELLS 6 22\n3 1 4 2\n4 0 1 2 3\n2 4 5\n3 4 5 6\n3 0 1 3\n1 6\n",
                                "CELL_TYPES 6\n5 10 3 4 5 1\n");
-  check_cells(io::parse_vtk_mixed(file, "f"));
+  check_cells(io::parse_vtk_cells(file, "f"));
   // As a solid, as before.
   CHECK(io::parse_vtk(file, "f").tets.size() == 1);
 }
@@ -63,7 +63,7 @@ TEST_CASE("lines, triangles and tetrahedra come from one .vtu") {
       "3 7 9 12 15 16</DataArray><DataArray type=\"UInt8\" Name=\"types\">5 10 3 4 5 1</DataArray>"
       "</Cells></Piece></UnstructuredGrid></VTKFile>";
   try {
-    check_cells(io::parse_vtu_mixed(file, "f"));
+    check_cells(io::parse_vtu_cells(file, "f"));
     CHECK(io::parse_vtu(file, "f").tets.size() == 1);
   } catch (const NotBuiltError&) {
   }
@@ -73,20 +73,18 @@ TEST_CASE("lines, triangles and tetrahedra come from one .msh") {
   const std::string file = gmsh(
       "7\n1 2 2 1 1 11 14 12\n2 4 2 1 1 10 11 12 13\n3 1 2 1 1 14 15\n4 1 0 14 15\n5 1 0 15 16\n"
       "6 2 0 10 11 13\n7 15 0 16\n");
-  check_cells(io::parse_gmsh_mixed(file, "f"));
+  check_cells(io::parse_gmsh_cells(file, "f"));
   CHECK(io::parse_gmsh(file, "f").tets.size() == 1);
-  CHECK_THROWS_WITH(io::parse_gmsh_mixed(gmsh("1\n7 2 0 10 11 99\n"), "f.msh"),
+  CHECK_THROWS_WITH(io::parse_gmsh_cells(gmsh("1\n7 2 0 10 11 99\n"), "f.msh"),
                     Contains("triangle 7 names node 99"));
 }
 
-TEST_CASE("cells that a mixed domain cannot have are refused, as it would have holes") {
+TEST_CASE("cells of kinds that are not known are refused, as a domain would have holes") {
   CHECK_THROWS_WITH(
-      io::parse_vtk_mixed(vtk("CELLS 2 9\n2 4 5\n5 0 1 4 2 3\n", "CELL_TYPES 2\n3 14\n"), "f.vtk"),
-      Contains("f.vtk: has 1 pyramids"));
-  CHECK_THROWS_WITH(io::parse_gmsh_mixed(gmsh("1\n1 7 0 10 11 14 12 13\n"), "f.msh"),
-                    Contains("pyramids"));
-  CHECK_THROWS_AS(io::parse_vtk_mixed(vtk("CELLS 1 2\n1 4\n", "CELL_TYPES 1\n1\n"), "f"),
-                  InputError);
+      io::parse_vtk_cells(vtk("CELLS 2 9\n2 4 5\n5 0 1 4 2 3\n", "CELL_TYPES 2\n3 42\n"), "f.vtk"),
+      Contains("f.vtk: has 1 polyhedra, which are not read"));
+  CHECK_THROWS_WITH(io::parse_gmsh_cells(gmsh("1\n1 777 0 10 11 14 12 13\n"), "f.msh"),
+                    Contains("elements of an unknown type"));
 }
 
 TEST_CASE("simplices of any dimension come from a text") {

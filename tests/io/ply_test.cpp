@@ -35,7 +35,7 @@ std::string rich_header(const std::string& format) {
 }
 
 const Positions rich_positions = {{-3, 0.5, 7}, {1, 0, 0}, {1, 1, 0.25}, {0, 1, -1e100}};
-const Faces rich_faces = {{0, 1, 2}, {3, 2, 1}, {3, 1, 0}};
+const Faces rich_faces = {{0, 1, 2}, {3, 2, 0}, {2, 1, 0}};
 
 std::string rich_binary(bool big) {
   Packer p(big);

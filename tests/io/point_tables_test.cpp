@@ -15,7 +15,7 @@ using Catch::Contains;
 namespace {
 
 const auto parse = [](std::string_view text, std::string_view name) {
-  return io::parse_csv_points(text, name);
+  return io::parse_point_table(text, name);
 };
 
 struct LasPoint {
@@ -63,27 +63,28 @@ std::string las(int minor, int format, const std::vector<LasPoint>& points, std:
 
 TEST_CASE("a .csv of points has a header that says which columns are which, or three") {
   const Positions two = {{1, 2, 3}, {-4.5, 0, 1e-3}};
-  CHECK(io::parse_csv_points("1,2,3\n-4.5,0,1e-3\n", "f").positions == two);
-  CHECK(io::parse_csv_points("# by hand\r\n1 2  3\r\n\r\n-4.5 0 1e-3 # here\r\n", "f").positions ==
+  CHECK(io::parse_point_table("1,2,3\n-4.5,0,1e-3\n", "f").positions == two);
+  CHECK(io::parse_point_table("# by hand\r\n1 2  3\r\n\r\n-4.5 0 1e-3 # here\r\n", "f").positions ==
         two);
-  CHECK(io::parse_csv_points("id;\"Z\";Y;X;name\n7;3;2;1;a\n8;1e-3;+0;-4.5;b", "f").positions ==
+  CHECK(io::parse_point_table("id;\"Z\";Y;X;name\n7;3;2;1;a\n8;1e-3;+0;-4.5;b", "f").positions ==
         two);
-  const auto with = io::parse_csv_points("x\ty\tz\tnx\tny\tnz\n1\t2\t3\t0\t0\t1\n", "f");
+  const auto with = io::parse_point_table("x\ty\tz\tnx\tny\tnz\n1\t2\t3\t0\t0\t1\n", "f");
   CHECK(with.normals == Positions{{0, 0, 1}});
   CHECK(complaint(parse, "1,2,3,4\n") ==
         "mesh:1: has 4 columns and no header before it that says which of them are x, y and z");
   CHECK(complaint(parse, "x,y,w\n1,2,3\n") == "mesh:1: names no column z; the first is 'x'");
-  CHECK(complaint(parse, "x,y,z\n1,2,3\n1,2\n") == "mesh:3: has 2 columns, those before it have 3");
-  CHECK(complaint(parse, "x,y,z\n1,2,inf\n") == "mesh:2: expected a number, found 'inf'");
+  CHECK(complaint(parse, "x,y,z\n1,2,3\n1,2\n") ==
+        "mesh:3: point 1 has 2 columns, those before it have 3");
+  CHECK(complaint(parse, "x,y,z\n1,2,inf\n") == "mesh:2: z of point 0 is no finite number: 'inf'");
   CHECK(complaint(parse, "x,y,z,x\n") == "mesh:1: names two columns 'x'");
   CHECK(complaint(parse, "x,y,z\n") == "mesh: has no points; a cloud needs at least one");
 }
 
 TEST_CASE("the tables of points that the tool writes read back") {
-  const auto points = io::parse_csv_points(
+  const auto points = io::parse_point_table(
       "x,y,z,vertex,simplex,b0,b1,b2,b3,distance\n1,2,3,-1,5,0.5,0.5,0,0,inf\n", "f");
   CHECK(points.positions == Positions{{1, 2, 3}});
-  const auto field = io::parse_csv_points("vertex,x,y,z,distance\n0,1,2,3,inf\n", "f");
+  const auto field = io::parse_point_table("vertex,x,y,z,distance\n0,1,2,3,inf\n", "f");
   CHECK(field.positions == points.positions);
 }
 

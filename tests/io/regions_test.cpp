@@ -68,9 +68,8 @@ TEST_CASE("regions of a .msh are the first physical groups") {
   const Folder folder;
   for (const std::string& text : {gmsh2, gmsh4}) {
     const std::string file = folder.write("a.msh", text);
-    check(read_regions(file, true), {4}, {7, 0}, {11});
-    check(read_regions(file, false), {}, {}, {11});
-    const auto mixed = plexway::io::read_mixed(file);
+    check(read_regions(file), {4}, {7, 0}, {11});
+    const auto mixed = plexway::io::read_cells(file);
     CHECK(mixed.triangles.size() == 2);
     CHECK(plexway::io::read_tets(file).tets.size() == 1);
   }
@@ -79,7 +78,7 @@ TEST_CASE("regions of a .msh are the first physical groups") {
 TEST_CASE("regions of a .vtk are cell data, in scalars and fields") {
   const Folder folder;
   const auto read = [&](const std::string& data) {
-    return read_regions(folder.write("a.vtk", legacy(data)), true);
+    return read_regions(folder.write("a.vtk", legacy(data)));
   };
   check(read("POINT_DATA 4\nSCALARS region int\nLOOKUP_TABLE default\n9 9 9 9\n"
              "CELL_DATA 3\nSCALARS MaterialIDs int 1\nLOOKUP_TABLE default\n5 6 7\n"),
@@ -91,7 +90,8 @@ TEST_CASE("regions of a .vtk are cell data, in scalars and fields") {
   CHECK_THROWS_WITH(read("CELL_DATA 3\nFIELD f 1\nregion 1 3 double\n1 2 2.5\n"),
                     Contains("no whole number"));
   CHECK_THROWS_WITH(read("CELL_DATA 2\nFIELD f 1\nregion 1 2 int\n1 2\n"), Contains("there are 3"));
-  CHECK_THROWS_WITH(read("CELL_DATA 3\nFIELD f 1\nregion 1 3 int\n1 2\n"), Contains("is cut off"));
+  CHECK_THROWS_WITH(read("CELL_DATA 3\nFIELD f 1\nregion 1 3 int\n1 2\n"),
+                    Contains("ends before the region of a cell"));
   CHECK_THROWS_WITH(read("POINT_DATA 4\nFIELD f 1\nregion 1 4 int\n1 2 3 4\n"),
                     Contains("has no regions"));
   CHECK_THROWS_WITH(read(""), Contains("has no regions"));
@@ -100,7 +100,7 @@ TEST_CASE("regions of a .vtk are cell data, in scalars and fields") {
 TEST_CASE("regions of a .vtu are cell data") {
   const Folder folder;
   const auto read = [&](const std::string& data) {
-    return read_regions(folder.write("a.vtu", vtu(data)), true);
+    return read_regions(folder.write("a.vtu", vtu(data)));
   };
   try {
     check(read("<CellData><DataArray type=\"Float32\" Name=\"heat\" format=\"ascii\">1 2 3"

@@ -107,9 +107,12 @@ TEST_CASE("tets: files that cannot be read at all") {
   const auto path = folder.path().string();
   CHECK(refusal(folder.path() / "none.mesh") == path + "/none.mesh: no such file");
   CHECK(refusal(folder.write("a.stl", "x")) ==
-        path + "/a.stl: unknown extension '.stl'; known are .node .ele .mesh .msh .vtu .vtk");
+        path +
+            "/a.stl: neither ascii STL (no 'solid' at its start) nor binary (1 bytes; the header "
+            "alone takes 84)");
   CHECK(refusal(folder.write("a.meshb", "x")) ==
-        path + "/a.meshb: binary .meshb is not read; save it as ascii .mesh");
+        path +
+            "/a.meshb: a .meshb is not read; save it as ascii .mesh, with 'transmesh' of libMeshb");
   CHECK(refusal(folder.write("a.msh", "")) == path + "/a.msh: is empty");
   CHECK(refusal(folder.path()) == path + ": is a directory, not a file");
 }

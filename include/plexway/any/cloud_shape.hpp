@@ -47,7 +47,7 @@ struct CloudShape {
   }
 };
 
-/// Whether the extension is one of clouds alone: .xyz, .csv, .las, .pcd.
+/// Whether the format is one of clouds alone, as .xyz and .las. Throws as io::format_of.
 [[nodiscard]] bool is_cloud_file(const std::string& file);
 
 /// The points of a file, before anything is done to them.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include <plexway/any/shape.hpp>
@@ -12,11 +13,17 @@
 
 namespace plexway {
 
+/// What is open of a shape: what `mask` leaves (null: all) but simplices with a corner twice
+/// (AnyShape::collapsed), of which domains are built without a word; null where that is all of it.
+/// Throws InputError where nothing is left.
+[[nodiscard]] std::shared_ptr<const Mask> without_collapsed(const AnyShape& shape,
+                                                            std::shared_ptr<const Mask> mask);
+
 /// What a mask leaves of a shape: simplices by their numbers in the shape (outside) and among those
 /// that are open (inside), which are all that a complex is built of. 9 bytes a simplex or vertex.
 class OpenSimplices {
  public:
-  /// Throws UsageError for a mask of another size and a cloud or mixed domain, InputError where
+  /// Throws UsageError for a mask of another size, InputError where
   /// nothing is open. Cost: linear.
   OpenSimplices(const Mask& mask, const AnyShape& shape);
 

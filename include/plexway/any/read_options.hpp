@@ -77,6 +77,9 @@ struct ReadOptions {
   VolumeOptions volume = {};
   /// How points are made a domain.
   CloudPreparation cloud = {};
+  /// Refuse a file of which something would be left out, guessed or mended, such as a face with a
+  /// corner twice.
+  bool strict = false;
   /// How messages name these options.
   Spelling spelling = Spelling::fields;
   /// What is told meanwhile.

@@ -156,6 +156,11 @@ class AnyShape {
   /// of no such file, or whose simplices are not the file's.
   [[nodiscard]] std::vector<std::int64_t> regions() const;
 
+  /// What was done with a file besides taking what it has.
+  [[nodiscard]] const io::FileReport& report() const;
+  /// Simplices with a vertex twice, by their numbers: no domain is built of them.
+  [[nodiscard]] std::span<const Index> collapsed() const;
+
   /// How a level set came in: the grid and its voxels, or what was repaired; else empty.
   [[nodiscard]] const std::string& level_set_note() const;
   /// Seconds that reading took, and those that filling a surface and finding the neighbours of a

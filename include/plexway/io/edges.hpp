@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include <plexway/io/file_report.hpp>
+
 namespace plexway::io {
 
 /// A wireframe as a file has it: nothing merged, reordered or dropped.
@@ -16,6 +18,7 @@ struct Edges {
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< 0-based, each < vertices
   std::vector<double> lengths;                      ///< one an edge; empty: from the positions
   std::size_t vertices = 0;                         ///< referenced or not
+  FileReport report = {};                           ///< what the reader did besides
 };
 
 /// Reads the wireframe in `file`; the extension (any case) picks the format.
@@ -24,9 +27,6 @@ struct Edges {
 /// malformed, holds a number that is not finite, an index out of range, no edge at all, or when the
 /// extension is not known.
 Edges read_edges(const std::filesystem::path& file);
-
-/// The extensions `read_edges` knows, with the dot, in lower case.
-std::span<const std::string_view> edge_extensions();
 
 /// Writes the wireframe; the extension (any case) picks the format. An .edges holds lengths instead
 /// of positions. The file appears whole or not at all. Throws as write_triangles does, and

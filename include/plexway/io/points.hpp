@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include <plexway/io/file_report.hpp>
+
 namespace plexway::io {
 
 /// A cloud of points as a file has it: nothing merged, reordered or dropped.
@@ -18,6 +20,7 @@ struct Points {
   /// Of what is left of a file's points: the number that each had there, ascending. Empty: all are
   /// there. Fields are written with it as a column, so that they join with the file.
   std::vector<std::uint32_t> original = {};
+  FileReport report = {};  ///< what the reader did besides
 };
 
 /// Reads the points in `file`; the extension (any case) picks the format. Of a .ply the vertices
@@ -37,25 +40,20 @@ Points read_points(const std::filesystem::path& file);
 /// when the system refuses.
 void write_points(const std::filesystem::path& file, const Points& points);
 
-/// The extensions `read_points` knows, with the dot, in lower case.
-std::span<const std::string_view> point_extensions();
 /// Those that `write_points` knows.
 std::span<const std::string_view> point_output_extensions();
 
-/// Whether `file` is a .ply that has vertices but no faces, as its header says: a cloud. False for
-/// anything else, unreadable files too. Cost: reads the header only.
+/// Whether `file` is a .ply that has vertices but no faces, strips or edges, as its header says: a
+/// cloud. False for anything else, unreadable files too. Cost: reads the header only.
 bool is_ply_cloud(const std::filesystem::path& file);
 
-/// Points as text, one a line: "x y z" or "x y z nx ny nz", the same on every line, between blanks.
-/// `#` starts a comment, and `%` or `//` a line that is one. A first line with a single whole
+/// Points as text, one a line, between blanks, commas, semicolons or tabs. A header, in a comment
+/// too, names the columns x, y and z, and nx, ny and nz where there are normals; others are passed
+/// over. Without one there are three, or six with normals, or with colours where their range says
+/// so. `#` starts a comment, and `%` or `//` a line that is one. A first line with a single whole
 /// number says how many points follow. Throws InputError, also for normals whose length is far from
-/// 1 (and not 0): they are something else, such as colours.
-Points parse_xyz(std::string_view text, std::string_view name);
-
-/// A table of points, a line each, between commas, semicolons, tabs or blanks. A header names the
-/// columns x, y and z, and nx, ny and nz where there are normals; others are passed over, and
-/// without a header there are three. `#` starts a comment. Throws InputError.
-Points parse_csv_points(std::string_view text, std::string_view name);
+/// 1 (and not 0).
+Points parse_point_table(std::string_view text, std::string_view name);
 
 /// LAS 1.0 to 1.4, points of any format, but not packed as .laz. Withheld points are left out.
 /// Throws InputError.

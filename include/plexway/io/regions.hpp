@@ -13,12 +13,11 @@ struct Regions {
   std::vector<std::int64_t> tets;       ///< one a tetrahedron, as Mixed::tets
 };
 
-/// The regions of the cells that `read_mixed` takes from a .msh, .vtu or .vtk, or of the
-/// tetrahedra alone, as `read_tets` takes them. Of a .msh the first physical group, 0 where there
-/// is none; of the others the whole numbers of the cell data `region`, `gmsh:physical`,
-/// `MaterialIDs` or `CellEntityIds`, the first that is there.
+/// The regions of the cells that `read_cells` takes from a .msh, .vtu or .vtk. Of a .msh the first
+/// physical group, 0 where there is none; of the others the whole numbers of the cell data
+/// `region`, `gmsh:physical`, `MaterialIDs` or `CellEntityIds`, the first that is there.
 ///
 /// Throws InputError as those readers do, and where a file has no such data.
-[[nodiscard]] Regions read_regions(const std::filesystem::path& file, bool mixed);
+[[nodiscard]] Regions read_regions(const std::filesystem::path& file);
 
 }  // namespace plexway::io

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include <plexway/io/file_report.hpp>
+
 namespace plexway::io {
 
 /// A tetrahedral solid as a file has it: nothing merged, reordered or dropped.
@@ -15,6 +17,7 @@ namespace plexway::io {
 struct Tets {
   std::vector<std::array<double, 3>> positions;    ///< finite, in file units
   std::vector<std::array<std::uint32_t, 4>> tets;  ///< 0-based, each < positions.size()
+  FileReport report = {};                          ///< what the reader did besides
 };
 
 /// Reads the solid in `file`; the extension (any case) picks the format. Cells that are no

@@ -7,16 +7,20 @@
 #include <string_view>
 #include <vector>
 
+#include <plexway/io/file_report.hpp>
+
 /// The component `io`, link plexway::io: files in and out, as plain arrays.
 namespace plexway::io {
 
 /// A triangle surface as a file has it: nothing merged, reordered or dropped.
 ///
 /// Vertex i is the i-th vertex of the file, referenced or not. Polygons with more than three
-/// corners are cut into a fan around their first corner, in file order.
+/// corners are cut into triangles, in file order: quads along the shorter diagonal that lies
+/// inside, convex ones as a fan around their first corner, others by clipping ears.
 struct Triangles {
   std::vector<std::array<double, 3>> positions;         ///< finite, in file units
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< 0-based, each < positions.size()
+  FileReport report = {};                               ///< what the reader did besides
 };
 
 /// Reads the surface in `file`; the extension (any case) picks the format.
@@ -25,9 +29,6 @@ struct Triangles {
 /// truncated or malformed, holds a coordinate that is not finite, an index out of range, a face
 /// with fewer than three corners, no face at all, or when the extension is not known.
 Triangles read_triangles(const std::filesystem::path& file);
-
-/// The extensions `read_triangles` knows, with the dot, in lower case.
-std::span<const std::string_view> triangle_extensions();
 
 /// Writes the surface; the extension (any case) picks the format. Nothing is rounded but in
 /// .stl, .glb and .gltf, which hold single precision; .vtu, .vtk, .glb and .gltf are read again by

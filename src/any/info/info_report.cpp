@@ -1,5 +1,7 @@
 #include "any/info/info_report.hpp"
 
+#include "any/collapsed.hpp"
+
 #include <algorithm>
 
 namespace plexway {
@@ -12,6 +14,28 @@ std::string point_text(const std::array<double, 3>& point) {
 }
 
 }  // namespace
+
+void add_file_report(const AnyShape& domain, Json& json) {
+  const io::FileReport& report = domain.report();
+  json["split_polygons"] = report.split_polygons;
+  json["split_cells"] = report.split_cells;
+  json["dropped_simplices"] = domain.collapsed().size();
+  json["passed_over"] = Json::object();
+  for (const auto& [what, count] : report.passed_over) json["passed_over"][what] = count;
+}
+
+void add_file_report(const AnyShape& domain, Table& table) {
+  const io::FileReport& report = domain.report();
+  std::string split;
+  if (report.split_polygons > 0)
+    split = counted(report.split_polygons, "polygons") + " into triangles";
+  if (report.split_cells > 0)
+    split +=
+        (split.empty() ? "" : ", ") + counted(report.split_cells, "cells") + " into tetrahedra";
+  if (!split.empty()) table.add("split", split);
+  if (!report.passed_over.empty()) table.add("passed over", report.passed_over_text());
+  if (!domain.collapsed().empty()) table.add("dropped", collapsed_sentence(domain));
+}
 
 Json to_json(const Bounds& box) { return {{"min", box.low}, {"max", box.high}}; }
 

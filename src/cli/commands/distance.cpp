@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <plexway/any/open_simplices.hpp>
 #include <plexway/any/support.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/complex/point_cloud.hpp>
@@ -18,6 +19,7 @@
 #include "any/cloud_words.hpp"
 #include "any/field_remarks.hpp"
 #include "any/fill.hpp"
+#include "any/info/info_report.hpp"
 #include "any/info/rank_counts.hpp"
 #include "any/info/solve_words.hpp"
 #include "any/inside_field.hpp"
@@ -77,6 +79,7 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const AnyDoma
   add_accuracy(domain.kind(), field.accuracy(), field.statistics(), json);
   if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(field.triangulation);
   add_metric(command.metric, lengths, solver.refracting_edges(), json);
+  add_file_report(domain, json);
   if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
   if (const CloudShape* cloud = domain.cloud()) {
     json["points_in_file"] = cloud->points_in_file;
@@ -98,6 +101,7 @@ Table to_table(const DistanceCommand& command, const Domain& domain, const AnyDo
             counted(domain.vertices(), "vertices") + ", " +
                 counted(solver.simplices(), domain.simplex_name()) + ", " +
                 counted(solver.components(), "components"));
+  add_file_report(domain, table);
   if (!domain.level_set_note().empty()) table.add("voxels", domain.level_set_note());
   add_metric(command.metric, lengths, solver.refracting_edges(), table);
   if (domain.cloud() != nullptr && !kept_points(*domain.cloud()).empty())
@@ -169,8 +173,9 @@ void run_distance(DistanceCommand command) {
     check_output_name(command.out, command.input, AnyShape::field_extensions(domain.kind()));
   check_isolines(command.isolines, domain);
   const std::shared_ptr<const Mask> mask = read_mask(command.mask, domain);
+  const std::shared_ptr<const Mask> open = without_collapsed(domain, mask);
   const std::vector<Source> sources =
-      locate_source_sets(domain, arguments, !command.metric.text.empty(), mask.get());
+      locate_source_sets(domain, arguments, !command.metric.text.empty(), open.get());
   require_open(mask.get(), domain, sources);
   const std::vector<PointSource> points = as_points(sources);
   if (have_shapes(domain, sources)) {
@@ -233,9 +238,9 @@ void run_distance(DistanceCommand command) {
 
   // What is written and drawn is what is open.
   const bool shown_open =
-      mask != nullptr &&
+      open != nullptr &&
       (!command.out.empty() || !command.isolines.out.empty() || command.picture.wanted());
-  const Domain shown = shown_open ? domain.open_part(*mask) : domain;
+  const Domain shown = shown_open ? domain.open_part(*open) : domain;
   const bool plain = command.out == "-";
   const std::vector<double> isovalues = isoline_values(command.isolines, distance);
   if (command.writes_parts()) {
@@ -279,10 +284,11 @@ void run_distance(DistanceCommand command) {
   }
   progress.clear();
   const auto check_reached = [&] {
-    if (outcome.beside_source == 0)
-      throw NothingReached(command.input +
-                           ": nothing reached: no vertex but the source itself has "
-                           "a finite distance");
+    if (outcome.beside_source > 0) return;
+    const std::string apart = apart_sentence(domain, outcome.from);
+    throw NothingReached(
+        command.input + ": nothing reached: " +
+        (apart.empty() ? "no vertex but the source itself has a finite distance" : apart));
   };
   if (!command.leads()) return check_reached();
 

@@ -35,10 +35,14 @@ void run_info(const InfoCommand& command) {
       std::visit([&](const auto& shape) { return info_of(domain, shape); }, domain.data());
   progress.clear();
   Json json = {{"input", domain.file().string()}, {"kind", domain.kind_name()}};
+  add_file_report(domain, json);
   json.update(report.json);
+  for (const std::string& note : domain.report().notes) json["warnings"].push_back(note);
   Table table;
   table.add("input", domain.file().string());
+  add_file_report(domain, table);
   table.add(report.table);
+  for (const std::string& note : domain.report().notes) table.add("note", note);
   write_output(command.json ? json_text(json) : table.text());
   flush_output();
 }

@@ -72,8 +72,7 @@ void add_tetrahedralize_command(CLI::App& tool, Action& action) {
   command->as = "solid";
   CLI::App& app = *tool.add_subcommand("tetrahedralize",
                                        "Fills a closed surface with tetrahedra, by TetGen (AGPL)");
-  add_input(app, *command,
-            "a closed surface: .obj .off .ply .stl, or TetGen's .poly .smesh; a level set: .vdb");
+  add_input(app, *command, "a closed surface, or TetGen's .poly .smesh; a level set: .vdb");
   add_output(app, "--out,-o", command->out,
              "write the solid: .node .ele .mesh .msh .vtu .vtk by extension (- for .mesh on\n"
              "standard output). The vertices of the surface come first, with their numbers",

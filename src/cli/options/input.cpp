@@ -2,11 +2,39 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+
 #include <plexway/error.hpp>
+#include <plexway/io/formats.hpp>
 
 namespace plexway::cli {
 
-void add_input(CLI::App& app, InputCommand& command, const char* help) {
+std::string input_help() {
+  // Lines of help are this wide.
+  constexpr std::size_t width = 84;
+  std::string text;
+  const auto add = [&](DomainKind kind, const std::string& what) {
+    std::string line = what + ":";
+    const std::string names = io::extensions_of(kind);
+    for (std::size_t from = 0; from < names.size();) {
+      const std::size_t end = std::min(names.find(' ', from), names.size());
+      if (line.size() + end - from + 1 > width) text += line + "\n", line = "  ";
+      line += " " + names.substr(from, end - from);
+      from = end + 1;
+    }
+    text += line + "\n";
+  };
+  add(DomainKind::surface, "a surface");
+  add(DomainKind::solid, "a solid (.poly .smesh through TetGen, a level set .vdb through OpenVDB)");
+  add(DomainKind::wireframe, "a wireframe");
+  add(DomainKind::cloud, "a cloud of points (.pcd through PCL)");
+  add(DomainKind::simplices, "simplices of dimension 1 to 4");
+  return text +
+         "what may hold several is what has most dimensions; a file of another name is told by\n"
+         "its first bytes, and any may be packed (.gz); .plexway: see 'plexway prepare'";
+}
+
+void add_input(CLI::App& app, InputCommand& command, const std::string& help) {
   app.add_option("INPUT", command.input, help)->type_name("FILE")->required();
 }
 
@@ -26,6 +54,9 @@ void add_report_options(CLI::App& app, InputCommand& command, const char* quiet)
 
 void add_input_options(CLI::App& app, InputCommand& command, const char* quiet) {
   app.add_option("--as", command.as, as_help)->type_name("KIND");
+  app.add_flag("--strict", command.strict,
+               "refuse a file of which something is left out, guessed or mended, such as a face\n"
+               "with a corner twice");
   add_report_options(app, command, quiet);
   add_fill_options(app, command.fill);
   add_cloud_options(app, command.cloud);
@@ -52,6 +83,7 @@ ReadOptions read_options(const InputCommand& command, ProgressLine& progress) {
                        ": no such kind; the kinds are surface, solid, cloud, wireframe, simplices, "
                        "mixed");
   }
+  options.strict = command.strict;
   options.fill = filling(command.fill);
   options.volume = command.fill.volume;
   options.cloud = command.cloud;

@@ -26,29 +26,21 @@ struct InputCommand {
   std::optional<double> weld;
   FillArguments fill;
   CloudPreparation cloud;
-  bool json = false, quiet = false;
+  bool json = false, quiet = false, strict = false;
 };
 
 /// What INPUT may be, for the help of the commands.
-inline constexpr const char* input_help =
-    "a surface: .obj .off .ply .stl .vtp .glb .gltf; a solid: .node .ele .mesh .msh .vtu .vtk,\n"
-    ".poly .smesh through TetGen, and a level set .vdb through OpenVDB; a wireframe: .edges, or "
-    ".obj with lines only;\n"
-    "a cloud of points: .xyz .csv .las, .ply without faces, and .pcd through PCL; a .msh .vtu\n"
-    ".vtk .vtp .glb is what it holds;\n"
-    "simplices of dimension 1 to 4: .simplices;\n"
-    "any of these, built: .plexway, see 'plexway prepare'";
+[[nodiscard]] std::string input_help();
 inline constexpr const char* as_help =
     "what to take it as: surface, solid (fills a surface with tetrahedra),\n"
     "wireframe (the edges alone), cloud (the vertices of a surface alone) or mixed (all\n"
-    "lines, triangles and tetrahedra of a .msh, .vtu or .vtk); default: what the extension\n"
-    "says";
+    "lines, triangles and tetrahedra of a .msh, .vtu or .vtk); default: what the file holds";
 inline constexpr const char* usual_quiet = "no summary, notes or progress; errors stay";
 
 ///@{
 /// Adds INPUT; INPUT, MORE and --weld; --json and --quiet; or these and all that says how to read a
 /// domain: --as, and groups about filling and clouds.
-void add_input(CLI::App& app, InputCommand& command, const char* help = input_help);
+void add_input(CLI::App& app, InputCommand& command, const std::string& help = input_help());
 void add_inputs(CLI::App& app, InputCommand& command);
 void add_report_options(CLI::App& app, InputCommand& command, const char* quiet = usual_quiet);
 void add_input_options(CLI::App& app, InputCommand& command, const char* quiet = usual_quiet);

@@ -1,0 +1,322 @@
+#include <plexway/io/formats.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include <plexway/error.hpp>
+
+#include "cells.hpp"
+#include "did_you_mean.hpp"
+#include "opened_file.hpp"
+#include "quote.hpp"
+#include "readers.hpp"
+
+namespace plexway::io {
+namespace {
+
+using View = std::string_view;
+constexpr char gifti_tag[] = "<GIFTI", vtk_tag[] = "<VTKFile", freesurfer_magic[] = "\xFF\xFF\xFE",
+               freesurfer_text[] = "#!ascii", medit_word[] = "MeshVersionFormatted",
+               gmsh_sign[] = "$", vtk_line[] = "# vtk DataFile", gltf_magic[] = "glTF",
+               las_magic[] = "LASF";
+template <const char* with>
+bool begins(View bytes) {
+  return bytes.starts_with(with);
+}
+template <const char* what>
+bool has_early(View bytes) {
+  return bytes.substr(0, 1024).find(what) != View::npos;
+}
+bool begins_off(View bytes) {
+  return bytes.substr(0, bytes.find_first_of("\r\n ")).ends_with("OFF");
+}
+bool begins_ply(View bytes) { return bytes.starts_with("ply\n") || bytes.starts_with("ply\r"); }
+bool begins_stl(View bytes) { return bytes.starts_with("solid ") || bytes.starts_with("solid\n"); }
+
+template <Triangles (*parse)(View, View)>
+Mixed surface_of(View bytes, View name) {
+  return mixed_of(parse(bytes, name));
+}
+
+Mixed gltf_of(View bytes, View name) {
+  return parse_gltf_files(bytes, name, [&](const std::string& uri) {
+    // Beside it, as exporters write them, with nothing but letters to decode.
+    std::string file;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+      const bool coded = uri[i] == '%' && i + 2 < uri.size();
+      file += coded ? static_cast<char>(std::strtol(uri.substr(i + 1, 2).c_str(), nullptr, 16))
+                    : uri[i];
+      if (coded) i += 2;
+    }
+    if (file.find(':') != file.npos || file.starts_with('/') || file.find("..") != file.npos)
+      throw InputError(std::string(name) + ": has its numbers in " + quote(uri) +
+                       ", which does not lie beside it");
+    const auto path = std::filesystem::path(name).parent_path() / file;
+    return std::string(FileBytes(path).view());
+  });
+}
+
+constexpr unsigned bit(DomainKind kind) { return 1U << static_cast<unsigned>(kind); }
+constexpr unsigned surface = bit(DomainKind::surface), solid = bit(DomainKind::solid),
+                   wires = bit(DomainKind::wireframe), cloud = bit(DomainKind::cloud),
+                   any = surface | solid | wires | cloud;
+
+struct Row : Format {
+  Mixed (*cells)(View bytes, View name) = nullptr;
+  Points (*points)(View bytes, View name) = nullptr;
+  bool (*is_this)(View bytes) = nullptr;  ///< by its first bytes
+};
+
+constexpr Row table[] = {
+    {{".obj", "Wavefront OBJ", FileReader::cells, surface | wires | cloud,
+      "`v`; `f` and `l` as `v`, `v/vt`, `v//vn`, `v/vt/vn`; negative indices; faces and lines "
+      "before "
+      "their vertices; a backslash joins a line to the next",
+      "every other statement; a fourth coordinate, colours"},
+     parse_obj_cells},
+    {{".off", "Object File Format", FileReader::cells, surface,
+      "ascii; `OFF` and its variants with `ST`, `C`, `N` in front, or no keyword at all; counts on "
+      "the keyword's line or the next; the edge count may be missing",
+      "normals, colours, edge count; binary OFF is refused"},
+     surface_of<parse_off>,
+     nullptr,
+     begins_off},
+    {{".ply", "Stanford PLY", FileReader::cells, surface | wires | cloud,
+      "ascii, binary of either byte order, version 1.0; any scalar types; properties and elements "
+      "in "
+      "any order; `face` and `tristrips` (-1 between strips) with `vertex_indices` or "
+      "`vertex_index`, `edge` with `vertex1` and `vertex2`; of clouds `nx ny nz`",
+      "all other elements and properties, lists too"},
+     parse_ply_cells,
+     parse_ply_points,
+     begins_ply},
+    {{".stl", "STL", FileReader::cells, surface,
+      "ascii and binary, several solids, polygons in ascii",
+      "normals, attributes, names; bytes "
+      "behind the last facet, with a note"},
+     surface_of<parse_stl>,
+     nullptr,
+     begins_stl},
+    {{".gii", "GIfTI (`.surf.gii`)", FileReader::cells, surface,
+      "the first arrays of points and of triangles; ascii, base64, base64 of zlib; rows or columns "
+      "first",
+      "metadata, transforms to other spaces; data in other files is refused"},
+     surface_of<parse_gifti>,
+     nullptr,
+     has_early<gifti_tag>},
+    {{".white .pial .inflated .sphere .orig .smoothwm", "FreeSurfer's triangles", FileReader::cells,
+      surface, "binary, as behind `lh.` and `rh.`; files of any other name by their first bytes",
+      "what stands behind the triangles"},
+     surface_of<parse_freesurfer>,
+     nullptr,
+     begins<freesurfer_magic>},
+    {{"", "FreeSurfer's triangles as text", FileReader::cells, surface,
+      "files that begin with `#!ascii`, such as `lh.pial.asc`", "the patch of each"},
+     surface_of<parse_freesurfer_ascii>,
+     nullptr,
+     begins<freesurfer_text>},
+    {{".node .ele", "TetGen's pair", FileReader::cells, solid,
+      "from either name; numbered from 0 or 1; 4 or 10 nodes a tetrahedron",
+      "attributes, markers, comments"}},
+    {{".mesh", "MEDIT", FileReader::cells, any,
+      "ascii, of dimension 2 or 3; sections in any order; cells of first and second order",
+      "references, normals, tangents, marks; `.meshb` is refused"},
+     parse_medit_cells,
+     nullptr,
+     begins<medit_word>},
+    {{".msh", "Gmsh", FileReader::cells, any,
+      "2.0 to 2.2 and 4.1, ascii and binary of either byte order; any node tags; entity blocks; "
+      "comments and other sections anywhere",
+      "all other sections; versions 1 and 4.0, and `$ParametricNodes`, are refused"},
+     parse_gmsh_cells,
+     nullptr,
+     begins<gmsh_sign>},
+    {{".vtu .vtp", "VTK's XML, grids and polygons", FileReader::cells, any,
+      "ascii, base64, appended raw and base64; either byte order; any number types; several "
+      "pieces; "
+      "compressed by zlib; cells of any order",
+      "fields; LZ4 and LZMA are refused"},
+     parse_vtu_cells,
+     nullptr,
+     has_early<vtk_tag>},
+    {{".vtk", "VTK's legacy files", FileReader::cells, any,
+      "ascii and binary, up to 5.1, `UNSTRUCTURED_GRID` and `POLYDATA`; cells of any order",
+      "fields"},
+     parse_vtk_cells,
+     nullptr,
+     begins<vtk_line>},
+    {{".glb .gltf", "glTF 2.0", FileReader::cells, surface | wires | cloud,
+      "all meshes of the scene where its nodes put them: points, lines, triangles, strips, fans; "
+      "numbers in the file or in one beside it, quantized or sparse ones too",
+      "all attributes but `POSITION`; cameras, skins, morph targets; Draco and meshopt are "
+      "refused"},
+     gltf_of,
+     nullptr,
+     begins<gltf_magic>},
+    {{".edges", "list of edges", FileReader::edges, wires,
+      "text, an edge a line: `a b` or `a b length`, vertices counted from 0; `vertices N` before",
+      "blank lines, `#` and what follows it, lines that start with `%`"}},
+    {{".xyz .csv .txt .pts .asc", "points as text", FileReader::points, cloud,
+      "a point a line, between blanks, commas, semicolons or tabs; a header (behind `#` or `//` "
+      "too) names the columns `x`, `y`, `z` and maybe `nx`, `ny`, `nz`, in any order; without one "
+      "there are three, or six with normals; a first line may say how many follow",
+      "other columns; colours and intensities, with a note; blank lines, `#`, `%` and `//`"},
+     nullptr,
+     parse_point_table},
+    {{".las", "LAS", FileReader::points, cloud, "1.0 to 1.4, points of formats 0 to 10",
+      "all but the coordinates; withheld points, so that `original` tells which are left; `.laz` "
+      "is "
+      "refused"},
+     nullptr,
+     parse_las,
+     begins<las_magic>},
+    {{".pcd", "PCD, through PCL", FileReader::cloud, cloud, "ascii, binary, compressed",
+      "all fields but `x y z` and `normal_x normal_y normal_z`"}},
+    {{".poly .smesh", "surfaces to fill, through TetGen", FileReader::boundary, solid,
+      "points, facets, holes, regions", "attributes"}},
+    {{".vdb", "level sets, through OpenVDB", FileReader::level_set, solid, "one grid",
+      "other grids"}},
+    {{".simplices", "simplices of dimension 1 to 4", FileReader::simplices,
+      bit(DomainKind::simplices), "text: coordinates or lengths, and corners",
+      "`#` and what follows it"}},
+    {{".plexway", "what `plexway prepare` built", FileReader::prepared, 0, "all", "nothing"}},
+};
+
+bool has_extension(const Format& format, View extension) {
+  for (View list = format.extensions; !list.empty() && !extension.empty();) {
+    const View one = list.substr(0, list.find(' '));
+    if (one == extension) return true;
+    list.remove_prefix(std::min(one.size() + 1, list.size()));
+  }
+  return false;
+}
+
+// What others read, and how it gets here.
+constexpr std::array<std::array<View, 3>, 10> others = {{
+    {".3mf", "PK\x03\x04", "save the surface as .stl, .ply or .glb, with MeshLab or a slicer"},
+    {".meshb", "", "save it as ascii .mesh, with 'transmesh' of libMeshb"},
+    {".laz", "", "unpack it, with 'pdal translate' or laszip"},
+    {".nii", "", "it holds voxels: save a surface of them as .gii, with FreeSurfer or 3D Slicer"},
+    {".mgz", "", "it holds voxels: save a surface of them as .gii, with FreeSurfer or 3D Slicer"},
+    {".dae", "", "save the surface as .stl, .ply or .glb, with Blender"},
+    {".fbx", "", "save the surface as .stl, .ply or .glb, with Blender"},
+    {".step", "", "save the surface as .stl, with FreeCAD, or mesh it with Gmsh"},
+    {".iges", "", "save the surface as .stl, with FreeCAD, or mesh it with Gmsh"},
+    {".e57", "", "save the points as .ply or .las, with CloudCompare or PDAL"},
+}};
+
+// None where it cannot be read, which is said only if its name says nothing.
+View first_bytes(const OpenedFile& file) {
+  try {
+    return file.bytes();
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+[[noreturn]] void refuse(const OpenedFile& file) {
+  const std::string &name = file.name(), &extension = file.extension();
+  if (extension.empty() && file.is_standard_input())
+    throw InputError(name + ": standard input has no extension: say what it is, as in ply:-");
+  for (const auto& [other, first, cure] : others)
+    if (extension == other || (!first.empty() && first_bytes(file).starts_with(first)))
+      throw InputError(name + ": a " + std::string(other) + " is not read; " + std::string(cure));
+  if (extension == ".pvtu")
+    throw InputError(name +
+                     ": a .pvtu is read in parts, by ranks: mpirun -n 4 plexway-mpi distance " +
+                     name + " --in-parts ...");
+  std::vector<View> known;
+  for (const Format& format : table)
+    for (View list = format.extensions; !list.empty();) {
+      known.push_back(list.substr(0, list.find(' ')));
+      list.remove_prefix(std::min(known.back().size() + 1, list.size()));
+    }
+  const std::string hint = did_you_mean(extension, known);
+  if (hint.empty()) static_cast<void>(file.bytes());
+  throw InputError(name + ": " +
+                   (extension.empty() ? "no extension" : "unknown extension " + quote(extension)) +
+                   ", and its first bytes do not tell what it is" + hint +
+                   (hint.empty() ? ";" : "") + " read are " + known_formats());
+}
+
+// By its name, but an .asc is either of two; then by its first bytes.
+const Row& row_of(const OpenedFile& file) {
+  const bool tells = file.extension() != ".asc";
+  for (const bool by_name : {tells, !tells})
+    for (const Row& row : table)
+      if (by_name ? has_extension(row, file.extension())
+                  : row.is_this != nullptr && row.is_this(first_bytes(file)))
+        return row;
+  refuse(file);
+}
+
+Mixed cells_of(const OpenedFile& file, const Row& row) {
+  if (row.cells != nullptr) return row.cells(file.bytes(), file.name());
+  Mixed cells;
+  if (row.extensions.starts_with(".node")) {
+    Tets both = read_node_ele(file.name());
+    cells.positions = std::move(both.positions);
+    cells.tets = std::move(both.tets);
+  } else if (row.points != nullptr) {
+    Points points = row.points(file.bytes(), file.name());
+    cells.positions = std::move(points.positions);
+    cells.report = std::move(points.report);
+  } else {
+    throw InputError(file.name() + ": holds no lines, polygons or tetrahedra with coordinates");
+  }
+  return cells;
+}
+
+}  // namespace
+
+std::vector<Format> formats() { return {std::begin(table), std::end(table)}; }
+
+Format format_of(const std::filesystem::path& file) { return row_of(OpenedFile(file)); }
+
+std::string extensions_of(DomainKind kind) {
+  std::string list;
+  for (const Format& format : table)
+    if (format.may_hold(kind) && !format.extensions.empty())
+      list.append(list.empty() ? "" : " ").append(format.extensions);
+  return list;
+}
+
+std::string known_formats() {
+  return "surfaces " + extensions_of(DomainKind::surface) + ", solids " +
+         extensions_of(DomainKind::solid) + ", wireframes " + extensions_of(DomainKind::wireframe) +
+         ", clouds " + extensions_of(DomainKind::cloud) + ", simplices " +
+         extensions_of(DomainKind::simplices) + ", and .plexway, what is prepared";
+}
+
+Mixed read_cells(const std::filesystem::path& path) {
+  const OpenedFile file(path);
+  return cells_of(file, row_of(file));
+}
+
+Points read_points(const std::filesystem::path& path) {
+  const OpenedFile file(path);
+  refuse_pcd(file.extension(), file.name());
+  const Row& row = row_of(file);
+  if (row.points != nullptr) return row.points(file.bytes(), file.name());
+  Mixed cells = cells_of(file, row);
+  if (cells.positions.empty()) throw InputError(file.name() + ": has no points");
+  return {std::move(cells.positions), {}, {}, std::move(cells.report)};
+}
+
+Triangles read_triangles(const std::filesystem::path& file) {
+  return triangles_of(read_cells(file), file.string());
+}
+
+Tets read_tets(const std::filesystem::path& file) {
+  return tets_of(read_cells(file), file.string());
+}
+
+Edges read_edges(const std::filesystem::path& path) {
+  const OpenedFile file(path);
+  const Row& row = row_of(file);
+  return row.reader == FileReader::edges ? parse_edge_list(file.bytes(), file.name())
+                                         : edges_of(cells_of(file, row), file.name());
+}
+
+}  // namespace plexway::io
