@@ -14,7 +14,7 @@
 
 namespace mixed_pierced_test {
 
-// Two speeds where something is cut out of both, and many in coarse slabs: bench_random_plans has
+// Two speeds where something is cut out of both, and many in coarse slabs: bench random_plans has
 // more of them.
 
 TEST_CASE("holes and cracks through the face between two speeds are never too near") {
