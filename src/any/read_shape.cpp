@@ -38,13 +38,13 @@ MixedShape mixed_of(io::Mixed cells) {
 
 // Of a file of cells what has most dimensions; nothing where there are points alone. Lines are
 // rather a wireframe than edges of triangles where files draw both.
-std::optional<Data> data_of(const std::string& file, io::Mixed cells,
-                            std::optional<DomainKind> asked, io::FileReport& report) {
+std::optional<Data> data_of(const std::string& file, io::Mixed cells, bool as_mixed,
+                            bool as_wireframe, io::FileReport& report) {
   report = std::move(cells.report);
-  if (asked == DomainKind::mixed) return mixed_of(std::move(cells));
+  if (as_mixed) return mixed_of(std::move(cells));
   const std::string extension = io::InputName(file).extension;
   const bool draws = extension == ".obj" || extension == ".ply";
-  if (asked == DomainKind::wireframe && draws && !cells.edges.empty()) cells.triangles.clear();
+  if (as_wireframe && draws && !cells.edges.empty()) cells.triangles.clear();
   if (!cells.tets.empty()) report.pass_over("triangles", cells.triangles.size());
   if (!cells.tets.empty() || !cells.triangles.empty())
     report.pass_over("lines", cells.edges.size());
@@ -61,7 +61,7 @@ std::optional<Data> read_data(const std::string& file, std::optional<DomainKind>
                               io::FileReport& report) {
   const io::Format format = io::format_of(file);
   // A surface is no mixed domain.
-  if (asked == DomainKind::mixed && !format.may_hold(DomainKind::solid)) asked.reset();
+  const bool as_mixed = asked == DomainKind::mixed && format.may_hold(DomainKind::solid);
   switch (format.reader) {
     case io::FileReader::edges: {
       io::Edges wires = io::read_edges(file);
@@ -71,7 +71,7 @@ std::optional<Data> read_data(const std::string& file, std::optional<DomainKind>
     case io::FileReader::simplices:
       return io::read_simplices(file);
     default:
-      return data_of(file, io::read_cells(file), asked, report);
+      return data_of(file, io::read_cells(file), as_mixed, asked == DomainKind::wireframe, report);
   }
 }
 
