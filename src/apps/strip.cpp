@@ -78,8 +78,8 @@ std::optional<std::array<double, 3>> beyond(const Crossing& c, const std::array<
   return there;
 }
 
-/// Where the segment passes a portal, 0 at its left end. As near to an end as rounding leaves it, it
-/// passes there: the edges of a vertex that it goes through are then crossed at one point.
+/// Where the segment passes a portal, 0 at its left end. As near to an end as rounding leaves it,
+/// it passes there: the edges of a vertex that it goes through are then crossed at one point.
 double passing(const Portal& portal, const Vector2& a, const Vector2& b) {
   constexpr double rounding = 1e-12;
   const Vector2 d = b - a, w = portal.right - portal.left;

@@ -16,9 +16,9 @@ namespace plexway::testing {
 using Position = std::array<double, 3>;
 using samples::sampled_cylinder;
 using samples::sampled_plane;
-using samples::SampledCloud;
 using samples::sampled_sphere;
 using samples::sampled_swiss;
+using samples::SampledCloud;
 
 /// The k nearest of each point, both ways, found by looking at all pairs.
 inline Neighbours all_pairs_neighbours(std::span<const Position> points, std::size_t k = 16) {
