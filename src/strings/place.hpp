@@ -1,0 +1,56 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <plexway/complex/detail/tet_record.hpp>
+
+/// Where strings bend: straight rows of edges with more than pi of solid around them, and vertices.
+namespace plexway::strings {
+
+using Point = Vector3<double>;
+
+/// `a` over its length; 0 for 0.
+inline Point unit(const Point& a) {
+  const double length = norm(a);
+  return length > 0 ? 1 / length * a : a;
+}
+
+/// A row of edges between the same two planes of the boundary, or a single point (low = high).
+struct Place {
+  Point origin, along;    ///< of points origin + t along, `along` a unit vector
+  double low, high;       ///< the least and the greatest t
+  Point into;             ///< into the solid, unit: halfway between the two planes
+  Point floor, normal;    ///< across it: within the first plane, and square to that into the solid
+  double angle;           ///< of solid around it, from the first plane to the second
+  Index vertex = none;    ///< of a single point
+  Index first_wedge = 0, last_wedge = 0;  ///< where tetrahedra only touch: Boundary::wedges
+
+  /// Strings that come to it never lift off: a vertex, or an edge where tetrahedra only touch.
+  [[nodiscard]] bool holds() const { return angle == 0; }
+  [[nodiscard]] Point at(double t) const { return origin + t * along; }
+  /// A little inside the solid, and off the ends, where other faces begin.
+  [[nodiscard]] Point beside(double t, double by) const {
+    const double off = std::min(3 * by, (high - low) / 2);
+    return at(std::clamp(t, low + off, high - off)) + by * into;
+  }
+
+  /// Where a direction leads, measured through the solid from the first plane. One that leads into
+  /// the obstacle counts to the nearer plane.
+  [[nodiscard]] double angle_of(const Point& direction) const {
+    constexpr double turn = 2 * std::numbers::pi;
+    const double measured = std::atan2(dot(direction, normal), dot(direction, floor));
+    return measured < (angle - turn) / 2 ? measured + turn : measured;
+  }
+  /// Does a string press against the obstacle between `from` and `to`, both seen from it?
+  [[nodiscard]] bool presses(const Point& from, const Point& to) const {
+    constexpr double slack = 1e-6;  // costs its square
+    if (holds()) return true;
+    const double a = angle_of(from), b = angle_of(to);
+    if (std::min(a, b) < -slack || std::max(a, b) > angle + slack) return true;
+    return std::abs(a - b) >= std::numbers::pi - slack;
+  }
+};
+
+}  // namespace plexway::strings

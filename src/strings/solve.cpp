@@ -1,0 +1,281 @@
+#include "strings/solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plexway::strings {
+namespace {
+
+constexpr double still = 1e-9;  // an end that moved less did not move
+
+}  // namespace
+
+bool Solver::solve(std::span<const Source> sources, const Limits& limits) {
+  sources_ = sources;
+  counts_ = {};
+  chains_.start(sources.size());
+  hints_.assign(sources.size(), 0);
+  vertices_.assign(space_->vertices(), {});
+  queue_.clear();
+  seed(sources);
+  while (!queue_.empty()) {
+    std::pop_heap(queue_.begin(), queue_.end());
+    const Offer next = queue_.back();
+    queue_.pop_back();
+    if (next.distance > limits.radius) break;
+    const VertexLabels& at = vertices_[next.vertex];
+    const bool best = at.best.chain == next.chain && at.best.distance == next.distance;
+    if (!best && !(at.second.chain == next.chain && at.second.distance == next.distance)) continue;
+    if (counts_.expansions >= limits.expansions) return false;
+    if (limits.progress && counts_.expansions % 4096 == 0)
+      limits.progress(counts_.expansions, next.distance);
+    ++counts_.expansions;
+    expand(next.vertex, best ? Label(at.best) : Label(at.second));
+  }
+  return true;
+}
+
+void Solver::seed(std::span<const Source> sources) {
+  for (Index n = 0; n < sources.size(); ++n) {
+    const Source& source = sources[n];
+    if (source.vertex != none) {
+      take(source.vertex, {source.offset, n, {0, 0, 0}});
+      continue;
+    }
+    for (const Index v : source.corners) {
+      const Point leg = space_->point(v) - source.at;
+      take(v, {source.offset + norm(leg), n, unit(leg)});
+    }
+  }
+}
+
+void Solver::take(Index vertex, const Label& label) {
+  if (!vertices_[vertex].take(label, behind_)) return;
+  ++counts_.labels;
+  queue_.push_back({label.distance, vertex, label.chain});
+  std::push_heap(queue_.begin(), queue_.end());
+}
+
+void Solver::expand(Index vertex, const Label& label) {
+  prepared_ = false;
+  from_ = vertex;
+  for (const Index w : space_->neighbours(vertex)) offer(vertex, label, w, none);
+  for (const auto& [v, place] : space_->touching(vertex))
+    for (const Index w : space_->neighbours(vertex)) offer(vertex, label, w, place);
+}
+
+// The string to the vertex itself, whose legs are free.
+void Solver::prepare(Index vertex, const Label& label) {
+  if (prepared_) return;
+  prepared_ = true;
+  Attempt& a = base_;
+  chains_.places(label.chain, a.places);
+  const Source& source = sources_[chains_.source(label.chain)];
+  a.source = chains_.source(label.chain);
+  a.string.from = source.at;
+  a.string.to = space_->point(vertex);
+  a.string.places.clear();
+  a.string.at.resize(a.places.size());
+  Index chain = label.chain;
+  for (std::size_t i = a.places.size(); i-- > 0; chain = chains_[chain].parent)
+    a.string.at[i] = hints_[chain];
+  for (const Index p : a.places) a.string.places.push_back(place(p));
+  ++counts_.pulls;
+  puller_.pull(a.string);
+  a.legs.clear();
+  for (std::size_t i = 0; i <= a.places.size(); ++i)
+    a.legs.push_back({a.string.corner(i), a.string.corner(i + 1), true});
+}
+
+// What a vertex has to another one; with one more place at the vertex, if there is one.
+void Solver::offer(Index from, const Label& label, Index to, Index through) {
+  VertexLabels& at = vertices_[to];
+  if (through == none && at.knows(label.chain)) return;
+  const Point &u = space_->point(from), &w = space_->point(to);
+  const double direct = label.distance + norm(w - u);
+  // The length of a chain is convex in where it ends.
+  const double least = through == none ? label.distance + dot(label.last, w - u) : direct;
+  if (through == none && least >= at.limit(behind_)) return;
+  ++counts_.offers;
+  prepare(from, label);
+  attempt_ = base_;
+  attempt_.string.to = w;
+  if (through != none) append(attempt_, through, u);
+  const double offset = sources_[attempt_.source].offset;
+  const double limit = at.limit(behind_) - offset;
+  Outcome outcome = settle(attempt_, to, limit);
+  const bool as_offered = attempt_.places == base_.places;
+  if (outcome != Outcome::longer) outcome = without_held(attempt_, to, limit, outcome);
+  if (through == none && (outcome == Outcome::longer || (outcome == Outcome::free && as_offered)))
+    at.remember(label.chain);
+  const bool direct_is_less =
+      outcome == Outcome::stuck ||
+      (outcome == Outcome::free && direct < (offset + attempt_.string.length) * (1 - 1e-9));
+  if (direct_is_less) {
+    if (direct < at.best.distance) offer_corner(from, label, to, direct);
+  } else if (outcome == Outcome::free) {
+    accept(attempt_, to);
+  }
+}
+
+void Solver::append(Attempt& a, Index number, const Point& at) {
+  const Place* p = place(number);
+  a.places.push_back(number);
+  a.string.places.push_back(p);
+  a.string.at.push_back(dot(at - p->origin, p->along));
+  a.legs.push_back({at, at, false});
+}
+
+// Nothing better than straight on from the vertex itself, along the edge.
+void Solver::offer_corner(Index from, const Label& label, Index to, double length) {
+  ++counts_.corners;
+  const Index chain =
+      chains_.with(label.chain, static_cast<Index>(space_->places().size()) + from);
+  hints_.resize(chains_.size(), 0);
+  take(to, {length, chain, unit(space_->point(to) - space_->point(from))});
+}
+
+const Place* Solver::place(Index number) {
+  if (number < space_->places().size()) return &space_->places()[number];
+  const Index vertex = number - static_cast<Index>(space_->places().size());
+  const Point zero = {0, 0, 0};
+  return &corners_
+              .try_emplace(vertex, Place{space_->point(vertex), zero, 0, 0, zero, zero, zero, 0,
+                                         vertex})
+              .first->second;
+}
+
+// Where a leg between two corners of a string ends, off the boundary.
+Point Solver::end_of_leg(const Attempt& a, std::size_t corner, std::size_t other, Index to) const {
+  const Point& toward = a.string.corner(other);
+  if (corner > a.places.size()) return space_->beside(to, toward);
+  if (corner == 0) {
+    const Source& source = sources_[a.source];
+    return source.vertex != none ? space_->beside(source.vertex, toward) : source.beside;
+  }
+  const Place& place = *a.string.places[corner - 1];
+  if (place.vertex != none) return space_->beside(place.vertex, toward);
+  const double t = a.string.at[corner - 1];
+  if (place.holds()) return space_->beside(place, t, toward);
+  return place.beside(t, space_->aside());
+}
+
+bool Solver::drop_lifted(Attempt& a, Index to) {
+  for (std::size_t i = a.places.size(); i-- > 0;) {
+    const Place& place = *a.string.places[i];
+    if (place.holds()) continue;
+    const Point& at = a.string.points[i];
+    const Point from = end_of_leg(a, i, i + 1, to) - at, on = end_of_leg(a, i + 2, i + 1, to) - at;
+    if (place.presses(from, on)) continue;
+    drop(a, i);
+    return true;
+  }
+  return false;
+}
+
+void Solver::drop(Attempt& a, std::size_t n) {
+  const auto at = static_cast<std::ptrdiff_t>(n);
+  a.legs[n] = {a.legs[n].from, a.string.points[n], false};
+  a.legs.erase(a.legs.begin() + at + 1);
+  a.places.erase(a.places.begin() + at);
+  a.string.places.erase(a.string.places.begin() + at);
+  a.string.at.erase(a.string.at.begin() + at);
+  a.string.points.erase(a.string.points.begin() + at);
+}
+
+// Is the last leg an edge of the mesh?
+bool Solver::is_edge(const Attempt& a) const {
+  return (a.places.empty() ? sources_[a.source].vertex : a.string.places.back()->vertex) == from_;
+}
+
+// The last leg that leaves the solid; as many as there are legs: none does.
+std::size_t Solver::blocked(const Attempt& a, Index to) {
+  const auto moved = [](const Point& p, const Point& q) {
+    const Point d = p - q;
+    return dot(d, d) > still * still;
+  };
+  for (std::size_t i = a.legs.size(); i-- > 0;) {
+    const Point &from = a.string.corner(i), &end = a.string.corner(i + 1);
+    const Leg& leg = a.legs[i];
+    if (leg.known && !moved(from, leg.from) && !moved(end, leg.to)) continue;
+    if (i + 1 == a.legs.size() && is_edge(a)) continue;
+    ++counts_.legs;
+    if (space_->sight().is_blocked(end_of_leg(a, i, i + 1, to), end_of_leg(a, i + 1, i, to)))
+      return i;
+  }
+  return a.legs.size();
+}
+
+bool Solver::insert_touched(Attempt& a, std::size_t n, Index to) {
+  ++counts_.touches;
+  const Leg leg = a.legs[n];
+  const Point from = end_of_leg(a, n, n + 1, to), end = end_of_leg(a, n + 1, n, to);
+  // It turns about the end that moved less. Off the boundary as that is.
+  const Point moved_from = leg.from - a.string.corner(n),
+              moved_end = leg.to - a.string.corner(n + 1);
+  const bool backward = dot(moved_from, moved_from) > dot(moved_end, moved_end);
+  const auto touch = backward ? space_->sight().touch(end, from, from + moved_from)
+                              : space_->sight().touch(from, end, end + moved_end);
+  if (!touch) return false;
+  if ((n > 0 && a.places[n - 1] == touch->place) ||
+      (n < a.places.size() && a.places[n] == touch->place))
+    return false;
+  const Place* place = this->place(touch->place);
+  const Point at = place->at(touch->at);
+  const auto before = static_cast<std::ptrdiff_t>(n);
+  a.legs[n] = {leg.from, leg.to, false};
+  a.legs.insert(a.legs.begin() + before + 1, {at, leg.to, false});
+  a.places.insert(a.places.begin() + before, touch->place);
+  a.string.places.insert(a.string.places.begin() + before, place);
+  a.string.at.insert(a.string.at.begin() + before, touch->at);
+  return true;
+}
+
+Solver::Outcome Solver::settle(Attempt& a, Index to, double limit) {
+  constexpr int most = 24;
+  for (int round = 0; round < most; ++round) {
+    ++counts_.pulls;
+    puller_.pull(a.string);
+    if (drop_lifted(a, to)) continue;
+    if (!(a.string.length < limit)) return Outcome::longer;
+    const std::size_t leg = blocked(a, to);
+    if (leg == a.legs.size()) return Outcome::free;
+    if (!insert_touched(a, leg, to)) break;
+  }
+  puller_.pull(a.string);
+  return Outcome::stuck;
+}
+
+// A string held at the end of a place may be shorter past it.
+Solver::Outcome Solver::without_held(Attempt& a, Index to, double limit, Outcome outcome) {
+  for (std::size_t i = a.places.size(); i-- > 0;) {
+    if (i >= a.places.size() || !is_held(a.string, i)) continue;
+    ++counts_.held;
+    other_ = a;
+    drop(other_, i);
+    const double less = outcome == Outcome::free ? a.string.length * (1 - 1e-12) : limit;
+    if (settle(other_, to, less) != Outcome::free) continue;
+    std::swap(a, other_);
+    outcome = Outcome::free;
+  }
+  return outcome;
+}
+
+void Solver::accept(const Attempt& a, Index to) {
+  Index chain = a.source;
+  for (std::size_t i = 0; i < a.places.size(); ++i) {
+    chain = chains_.with(chain, a.places[i]);
+    hints_.resize(chains_.size(), 0);
+    hints_[chain] = a.string.at[i];
+  }
+  vertices_[to].remember(chain);
+  take(to, {sources_[a.source].offset + a.string.length, chain,
+            unit(a.string.to - a.string.corner(a.places.size()))});
+}
+
+std::size_t Solver::bytes() const {
+  return chains_.bytes() + hints_.capacity() * sizeof(double) +
+         vertices_.capacity() * sizeof(VertexLabels) + queue_.capacity() * sizeof(Offer);
+}
+
+}  // namespace plexway::strings
