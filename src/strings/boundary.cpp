@@ -99,6 +99,7 @@ class Finder {
   // Where tetrahedra only touch in an edge strings may pass through it from one to the other.
   void hold_pinched() {
     for (const auto& e : mesh_.pinched_edges()) {
+      if (extend_row(e.vertex)) continue;
       const auto number = static_cast<Index>(boundary_.places.size());
       const Point &a = points_[e.vertex[0]], along = points_[e.vertex[1]] - a, zero = {0, 0, 0};
       Place place = {a, unit(along), 0, norm(along), zero, zero, zero, 0};
@@ -110,6 +111,25 @@ class Finder {
       for (const Index v : e.vertex) boundary_.touching.push_back({v, number});
     }
     std::sort(boundary_.touching.begin(), boundary_.touching.end());
+  }
+  // Goes such an edge on where another one ends?
+  bool extend_row(const Index (&edge)[2]) {
+    const auto& touching = boundary_.touching;
+    for (std::size_t i = 0; i < touching.size(); ++i)
+      for (const Index n : {0u, 1u}) {
+        const auto [v, number] = touching[i];
+        Place& row = boundary_.places[number];
+        if (v != edge[n]) continue;
+        const Point on = unit(points_[edge[1 - n]] - points_[v]);
+        const double t = dot(points_[v] - row.origin, row.along);
+        if (!alike(on, t > row.low ? row.along : -1. * row.along)) continue;
+        const double end = dot(points_[edge[1 - n]] - row.origin, row.along);
+        row.low = std::min(row.low, end);
+        row.high = std::max(row.high, end);
+        boundary_.touching.push_back({edge[1 - n], number});
+        return true;
+      }
+    return false;
   }
   [[nodiscard]] Boundary::Wedge wedge_of(Index t, const Index (&edge)[2]) const {
     const Point along = unit(points_[edge[1]] - points_[edge[0]]);

@@ -105,10 +105,21 @@ bool Sight::is_blocked(const Point& from, const Point& to) const {
 
 std::optional<Sight::Touch> Sight::touch(const Point& from, const Point& to,
                                          const Point& free) const {
-  const Point ahead = unit(to - from);
-  const Point rise = free - from, up = unit(rise - dot(rise, ahead) * ahead);
-  const Point normal = cross(ahead, up);
-  if (!(norm(normal) > 0.5)) return {};
+  if (const auto found = highest(from, to, free - from)) return found;
+  // It hardly turned, or along what it touches: straight off the first face between.
+  Point off{};
+  along(from, to, [&](const Wall& wall) {
+    off = wall.plane.normal;
+    return true;
+  });
+  return highest(from, to, off);
+}
+
+std::optional<Sight::Touch> Sight::highest(const Point& from, const Point& to,
+                                           const Point& rise) const {
+  const Point ahead = unit(to - from), off = rise - dot(rise, ahead) * ahead;
+  if (norm(off) < near_.aside) return {};
+  const Point up = unit(off), normal = cross(ahead, up);
   std::optional<Touch> best;
   double steepest = -1e300;
   const auto follow = [&](const Wall& wall) {

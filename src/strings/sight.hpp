@@ -48,6 +48,9 @@ class Sight {
     Index face;
   };
   [[nodiscard]] bool is_between(const Wall& wall, const Point& from, const Point& to) const;
+  // The bend that is seen highest from `from`, in the plane of `rise`.
+  [[nodiscard]] std::optional<Touch> highest(const Point& from, const Point& to,
+                                             const Point& rise) const;
   template <class Visit>  // visit(wall), true to end
   void along(const Point& from, const Point& to, const Visit& visit) const;
 

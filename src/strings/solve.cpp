@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#ifdef TRACE
+#include <cstdio>
+unsigned trace_vertex = ~0u;
+#endif
+
 namespace plexway::strings {
 namespace {
 
@@ -108,6 +113,15 @@ void Solver::offer(Index from, const Label& label, Index to, Index through) {
   if (outcome != Outcome::longer) outcome = without_held(attempt_, to, limit, outcome);
   if (through == none && (outcome == Outcome::longer || (outcome == Outcome::free && as_offered)))
     at.remember(label.chain);
+#ifdef TRACE
+  if (to == trace_vertex) {
+    std::printf("offer from %u (%.3f %.3f %.3f) d %.6f chain %u: base", from, u.x, u.y, u.z, label.distance, label.chain);
+    for (auto q : base_.places) std::printf(" %u", q);
+    std::printf(" through %d -> outcome %d length %.6f limit %.6f direct %.6f:", int(through), int(outcome), attempt_.string.length, limit, direct);
+    for (std::size_t i = 0; i < attempt_.places.size(); ++i) std::printf(" %u[%.3f %.3f %.3f]", attempt_.places[i], attempt_.string.points[i].x, attempt_.string.points[i].y, attempt_.string.points[i].z);
+    std::printf("\n");
+  }
+#endif
   const bool direct_is_less =
       outcome == Outcome::stuck ||
       (outcome == Outcome::free && direct < (offset + attempt_.string.length) * (1 - 1e-9));
