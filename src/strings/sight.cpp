@@ -103,20 +103,20 @@ bool Sight::is_blocked(const Point& from, const Point& to) const {
   return found;
 }
 
-std::optional<Sight::Touch> Sight::touch(const Point& from, const Point& to,
-                                         const Point& free) const {
-  if (const auto found = highest(from, to, free - from)) return found;
+std::optional<Sight::Touch> Sight::touch(const Point& from, const Point& to, const Point& free,
+                                         const std::array<Index, 2>& known) const {
+  if (const auto found = highest(from, to, free - from, known)) return found;
   // It hardly turned, or along what it touches: straight off the first face between.
   Point off{};
   along(from, to, [&](const Wall& wall) {
     off = wall.plane.normal;
     return true;
   });
-  return highest(from, to, off);
+  return highest(from, to, off, known);
 }
 
-std::optional<Sight::Touch> Sight::highest(const Point& from, const Point& to,
-                                           const Point& rise) const {
+std::optional<Sight::Touch> Sight::highest(const Point& from, const Point& to, const Point& rise,
+                                           const std::array<Index, 2>& known) const {
   const Point ahead = unit(to - from), off = rise - dot(rise, ahead) * ahead;
   if (norm(off) < near_.aside) return {};
   const Point up = unit(off), normal = cross(ahead, up);
@@ -146,10 +146,11 @@ std::optional<Sight::Touch> Sight::highest(const Point& from, const Point& to,
       }
       if (leave == 3) return;
       const double x = dot(ahead, at - from);
-      if (x > 0 && f.place[leave] != none && height > steepest * x) {
+      const Index bend = f.place[leave];
+      if (x > 0 && bend != none && bend != known[0] && bend != known[1] && height > steepest * x) {
         steepest = height / x;
-        const Place& place = boundary_->places[f.place[leave]];
-        best = {f.place[leave], dot(at - place.origin, place.along)};
+        const Place& place = boundary_->places[bend];
+        best = {bend, dot(at - place.origin, place.along)};
       }
       if (height < -near_.on && n > 0) return;
       const Index next = f.across[leave];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -29,9 +30,10 @@ class Sight {
   };
   /// A leg `from`-`to` is blocked, from `from` to `free` it is not. What does it touch first on its
   /// way from there, turning about `from`? The boundary is cut by their plane, and the cut followed
-  /// from each face that is between to where it rises highest; that is a bend.
-  [[nodiscard]] std::optional<Touch> touch(const Point& from, const Point& to,
-                                           const Point& free) const;
+  /// from each face that is between to where it rises highest; that is a bend. Not at the places
+  /// `known`, where the leg's ends are.
+  [[nodiscard]] std::optional<Touch> touch(const Point& from, const Point& to, const Point& free,
+                                           const std::array<Index, 2>& known) const;
 
   [[nodiscard]] std::size_t hiding() const { return walls_.size(); }
   [[nodiscard]] std::size_t bytes() const { return walls_.capacity() * sizeof(Wall) + tree_.bytes(); }
@@ -49,8 +51,8 @@ class Sight {
   };
   [[nodiscard]] bool is_between(const Wall& wall, const Point& from, const Point& to) const;
   // The bend that is seen highest from `from`, in the plane of `rise`.
-  [[nodiscard]] std::optional<Touch> highest(const Point& from, const Point& to,
-                                             const Point& rise) const;
+  [[nodiscard]] std::optional<Touch> highest(const Point& from, const Point& to, const Point& rise,
+                                             const std::array<Index, 2>& known) const;
   template <class Visit>  // visit(wall), true to end
   void along(const Point& from, const Point& to, const Visit& visit) const;
 

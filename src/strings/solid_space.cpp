@@ -75,32 +75,40 @@ void SolidSpace::find_inside(const TetMesh<Real>& mesh) {
   }
 }
 
-Point SolidSpace::beside_boundary(Index slot, Index vertex, const Point& toward) const {
-  const Inside& inside = inside_[slot];
-  const Point& p = points_[vertex];
-  if (inside.begin == inside.end) return p + near_.aside * inside.direction;
-  const Point d = unit(toward - p);
-  const Cone* best = nullptr;
-  double deepest = -2;
-  for (Index c = inside.begin; c < inside.end; ++c) {
-    const Cone& cone = cones_[c];
-    const double depth =
-        std::min({dot(cone.plane[0], d), dot(cone.plane[1], d), dot(cone.plane[2], d)});
-    if (depth > deepest) deepest = depth, best = &cone;
-  }
+// Of the parts of the solid at `p` the middle of the one that holds a direction best.
+template <class Part>
+Point SolidSpace::into(std::span<const Part> parts, const Point& p, const Point& toward,
+                       const Point& free) const {
+  const auto best_toward = [&](const Point& q, double& deepest) {
+    const Point d = unit(q - p);
+    const Part* best = nullptr;
+    for (const Part& part : parts) {
+      double depth = 1;
+      for (const Point& plane : part.plane) depth = std::min(depth, dot(plane, d));
+      if (best == nullptr || depth > deepest) deepest = depth, best = &part;
+    }
+    return best;
+  };
+  double deepest = 0;
+  const Part* best = best_toward(toward, deepest);
+  if (deepest < -near_.on) best = best_toward(free, deepest);
   return p + near_.aside * best->middle;
 }
 
-Point SolidSpace::beside(const Place& place, double t, const Point& toward) const {
-  const Point p = place.at(t), d = unit(toward - p);
-  const Boundary::Wedge* best = nullptr;
-  double deepest = -2;
-  for (Index w = place.first_wedge; w < place.last_wedge; ++w) {
-    const Boundary::Wedge& wedge = boundary_.wedges[w];
-    const double depth = std::min(dot(wedge.plane[0], d), dot(wedge.plane[1], d));
-    if (depth > deepest) deepest = depth, best = &wedge;
-  }
-  return p + near_.aside * best->middle;
+Point SolidSpace::beside_boundary(Index slot, Index vertex, const Point& toward,
+                                  const Point& free) const {
+  const Inside& inside = inside_[slot];
+  const Point& p = points_[vertex];
+  if (inside.begin == inside.end) return p + near_.aside * inside.direction;
+  return into(std::span<const Cone>(cones_).subspan(inside.begin, inside.end - inside.begin), p,
+              toward, free);
+}
+
+Point SolidSpace::beside(const Place& place, double t, const Point& toward,
+                         const Point& free) const {
+  return into(std::span<const Boundary::Wedge>(boundary_.wedges)
+                  .subspan(place.first_wedge, place.last_wedge - place.first_wedge),
+              place.at(t), toward, free);
 }
 
 std::size_t SolidSpace::bytes() const {

@@ -33,13 +33,15 @@ class SolidSpace {
   [[nodiscard]] const Sight& sight() const { return sight_; }
   [[nodiscard]] double aside() const { return near_.aside; }
 
-  /// Where a leg from or to a vertex ends: a little inside the solid, for one `toward` a point.
-  [[nodiscard]] Point beside(Index vertex, const Point& toward) const {
+  /// Where a leg from or to a vertex ends: a little inside the solid, for one `toward` a point; if
+  /// that is behind the boundary, for one toward `free`, where it was before.
+  [[nodiscard]] Point beside(Index vertex, const Point& toward, const Point& free) const {
     const Index slot = slot_[vertex];
-    return slot == none ? points_[vertex] : beside_boundary(slot, vertex, toward);
+    return slot == none ? points_[vertex] : beside_boundary(slot, vertex, toward, free);
   }
   /// The same from or to a point of an edge where tetrahedra only touch.
-  [[nodiscard]] Point beside(const Place& place, double t, const Point& toward) const;
+  [[nodiscard]] Point beside(const Place& place, double t, const Point& toward,
+                             const Point& free) const;
   /// Such edges at a vertex: vertex and place.
   [[nodiscard]] std::span<const std::pair<Index, Index>> touching(Index vertex) const {
     if (boundary_.touching.empty()) return {};
@@ -65,7 +67,11 @@ class SolidSpace {
   void join(const TetMesh<Real>& mesh);
   template <class Real>
   void find_inside(const TetMesh<Real>& mesh);
-  [[nodiscard]] Point beside_boundary(Index slot, Index vertex, const Point& toward) const;
+  template <class Part>
+  [[nodiscard]] Point into(std::span<const Part> parts, const Point& p, const Point& toward,
+                           const Point& free) const;
+  [[nodiscard]] Point beside_boundary(Index slot, Index vertex, const Point& toward,
+                                      const Point& free) const;
 
   std::vector<Point> points_;
   Tolerances near_;

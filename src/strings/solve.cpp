@@ -161,16 +161,17 @@ const Place* Solver::place(Index number) {
 
 // Where a leg between two corners of a string ends, off the boundary.
 Point Solver::end_of_leg(const Attempt& a, std::size_t corner, std::size_t other, Index to) const {
-  const Point& toward = a.string.corner(other);
-  if (corner > a.places.size()) return space_->beside(to, toward);
+  const Point &toward = a.string.corner(other),
+              &free = other > corner ? a.legs[corner].to : a.legs[other].from;
+  if (corner > a.places.size()) return space_->beside(to, toward, free);
   if (corner == 0) {
     const Source& source = sources_[a.source];
-    return source.vertex != none ? space_->beside(source.vertex, toward) : source.beside;
+    return source.vertex != none ? space_->beside(source.vertex, toward, free) : source.beside;
   }
   const Place& place = *a.string.places[corner - 1];
-  if (place.vertex != none) return space_->beside(place.vertex, toward);
+  if (place.vertex != none) return space_->beside(place.vertex, toward, free);
   const double t = a.string.at[corner - 1];
-  if (place.holds()) return space_->beside(place, t, toward);
+  if (place.holds()) return space_->beside(place, t, toward, free);
   return place.beside(t, space_->aside());
 }
 
@@ -228,12 +229,11 @@ bool Solver::insert_touched(Attempt& a, std::size_t n, Index to) {
   const Point moved_from = leg.from - a.string.corner(n),
               moved_end = leg.to - a.string.corner(n + 1);
   const bool backward = dot(moved_from, moved_from) > dot(moved_end, moved_end);
-  const auto touch = backward ? space_->sight().touch(end, from, from + moved_from)
-                              : space_->sight().touch(from, end, end + moved_end);
+  const std::array<Index, 2> known = {n > 0 ? a.places[n - 1] : none,
+                                      n < a.places.size() ? a.places[n] : none};
+  const auto touch = backward ? space_->sight().touch(end, from, from + moved_from, known)
+                              : space_->sight().touch(from, end, end + moved_end, known);
   if (!touch) return false;
-  if ((n > 0 && a.places[n - 1] == touch->place) ||
-      (n < a.places.size() && a.places[n] == touch->place))
-    return false;
   const Place* place = this->place(touch->place);
   const Point at = place->at(touch->at);
   const auto before = static_cast<std::ptrdiff_t>(n);
