@@ -39,18 +39,23 @@ struct Place {
   /// Where a direction leads, measured through the solid from the first plane. One that leads into
   /// the obstacle counts to the nearer plane.
   [[nodiscard]] double angle_of(const Point& direction) const {
-    constexpr double turn = 2 * std::numbers::pi;
     const double measured = std::atan2(dot(direction, normal), dot(direction, floor));
     return measured < (angle - turn) / 2 ? measured + turn : measured;
   }
-  /// Does a string press against the obstacle between `from` and `to`, both seen from it?
-  [[nodiscard]] bool presses(const Point& from, const Point& to) const {
+  /// The same for one that was turned there from another one, by less than half a turn.
+  [[nodiscard]] double angle_of(const Point& direction, const Point& before) const {
+    const double now = angle_of(direction);
+    if (dot(before, before) < 1e-18) return now;
+    return now + turn * std::round((angle_of(before) - now) / turn);
+  }
+  /// Does a string press against the obstacle between legs that leave at these angles?
+  [[nodiscard]] bool presses(double a, double b) const {
     constexpr double slack = 1e-6;  // costs its square
-    if (holds()) return true;
-    const double a = angle_of(from), b = angle_of(to);
     if (std::min(a, b) < -slack || std::max(a, b) > angle + slack) return true;
     return std::abs(a - b) >= std::numbers::pi - slack;
   }
+
+  static constexpr double turn = 2 * std::numbers::pi;
 };
 
 }  // namespace plexway::strings

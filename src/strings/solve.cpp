@@ -90,6 +90,8 @@ void Solver::prepare(Index vertex, const Label& label) {
   a.legs.clear();
   for (std::size_t i = 0; i <= a.places.size(); ++i)
     a.legs.push_back({a.string.corner(i), a.string.corner(i + 1), true});
+  for (std::size_t i = 0; i <= a.places.size(); ++i)
+    a.legs[i] = {end_of_leg(a, i, i + 1, vertex), end_of_leg(a, i + 1, i, vertex), true};
 }
 
 // What a vertex has to another one; with one more place at the vertex, if there is one.
@@ -180,17 +182,20 @@ bool Solver::drop_lifted(Attempt& a, Index to) {
     const Place& place = *a.string.places[i];
     if (place.holds()) continue;
     const Point& at = a.string.points[i];
-    const Point from = end_of_leg(a, i, i + 1, to) - at, on = end_of_leg(a, i + 2, i + 1, to) - at;
+    const Leg &in = a.legs[i], &out = a.legs[i + 1];
+    const double from = place.angle_of(end_of_leg(a, i, i + 1, to) - at, in.from - in.to),
+                 on = place.angle_of(end_of_leg(a, i + 2, i + 1, to) - at, out.to - out.from);
     if (place.presses(from, on)) continue;
-    drop(a, i);
+    drop(a, i, end_of_leg(a, i + 1, i, to));
     return true;
   }
   return false;
 }
 
-void Solver::drop(Attempt& a, std::size_t n) {
+// Without a place; the leg that is left was free to there.
+void Solver::drop(Attempt& a, std::size_t n, const Point& beside) {
   const auto at = static_cast<std::ptrdiff_t>(n);
-  a.legs[n] = {a.legs[n].from, a.string.points[n], false};
+  a.legs[n] = {a.legs[n].from, beside, false};
   a.legs.erase(a.legs.begin() + at + 1);
   a.places.erase(a.places.begin() + at);
   a.string.places.erase(a.string.places.begin() + at);
@@ -210,13 +215,12 @@ std::size_t Solver::blocked(const Attempt& a, Index to) {
     return dot(d, d) > still * still;
   };
   for (std::size_t i = a.legs.size(); i-- > 0;) {
-    const Point &from = a.string.corner(i), &end = a.string.corner(i + 1);
+    if (i + 1 == a.legs.size() && is_edge(a)) continue;
+    const Point from = end_of_leg(a, i, i + 1, to), end = end_of_leg(a, i + 1, i, to);
     const Leg& leg = a.legs[i];
     if (leg.known && !moved(from, leg.from) && !moved(end, leg.to)) continue;
-    if (i + 1 == a.legs.size() && is_edge(a)) continue;
     ++counts_.legs;
-    if (space_->sight().is_blocked(end_of_leg(a, i, i + 1, to), end_of_leg(a, i + 1, i, to)))
-      return i;
+    if (space_->sight().is_blocked(from, end)) return i;
   }
   return a.legs.size();
 }
@@ -225,19 +229,17 @@ bool Solver::insert_touched(Attempt& a, std::size_t n, Index to) {
   ++counts_.touches;
   const Leg leg = a.legs[n];
   const Point from = end_of_leg(a, n, n + 1, to), end = end_of_leg(a, n + 1, n, to);
-  // It turns about the end that moved less. Off the boundary as that is.
-  const Point moved_from = leg.from - a.string.corner(n),
-              moved_end = leg.to - a.string.corner(n + 1);
-  const bool backward = dot(moved_from, moved_from) > dot(moved_end, moved_end);
   const std::array<Index, 2> known = {n > 0 ? a.places[n - 1] : none,
                                       n < a.places.size() ? a.places[n] : none};
-  const auto touch = backward ? space_->sight().touch(end, from, from + moved_from, known)
-                              : space_->sight().touch(from, end, end + moved_end, known);
+  // It turns about the end that moved less.
+  const bool backward = norm(leg.from - from) > norm(leg.to - end);
+  const auto touch = backward ? space_->sight().touch(end, from, leg.from, known)
+                              : space_->sight().touch(from, end, leg.to, known);
   if (!touch) return false;
   const Place* place = this->place(touch->place);
-  const Point at = place->at(touch->at);
+  const Point at = place->beside(touch->at, space_->aside());
   const auto before = static_cast<std::ptrdiff_t>(n);
-  a.legs[n] = {leg.from, leg.to, false};
+  a.legs[n] = {leg.from, at, false};
   a.legs.insert(a.legs.begin() + before + 1, {at, leg.to, false});
   a.places.insert(a.places.begin() + before, touch->place);
   a.string.places.insert(a.string.places.begin() + before, place);
@@ -266,7 +268,7 @@ Solver::Outcome Solver::without_held(Attempt& a, Index to, double limit, Outcome
     if (i >= a.places.size() || !is_held(a.string, i)) continue;
     ++counts_.held;
     other_ = a;
-    drop(other_, i);
+    drop(other_, i, end_of_leg(a, i + 1, i, to));
     const double less = outcome == Outcome::free ? a.string.length * (1 - 1e-12) : limit;
     if (settle(other_, to, less) != Outcome::free) continue;
     std::swap(a, other_);

@@ -64,7 +64,7 @@ class Solver {
  private:
   /// A string on its way to a new end. Each leg comes from where it was free.
   struct Leg {
-    Point from, to;      // where it was free
+    Point from, to;      // where it was free, a little inside the solid
     bool known = false;  // it was seen to be free there
   };
   struct Attempt {
@@ -95,7 +95,7 @@ class Solver {
   bool drop_lifted(Attempt& attempt, Index to);
   std::size_t blocked(const Attempt& attempt, Index to);
   bool insert_touched(Attempt& attempt, std::size_t leg, Index to);
-  static void drop(Attempt& attempt, std::size_t n);
+  static void drop(Attempt& attempt, std::size_t n, const Point& beside);
   Point end_of_leg(const Attempt& attempt, std::size_t corner, std::size_t other, Index to) const;
   void accept(const Attempt& attempt, Index to);
   void take(Index vertex, const Label& label);
