@@ -31,6 +31,9 @@ class Finder {
       for (Index k = 0; k < 3; ++k) go_around(f, k);
     hold_pinched();
     join_rows();
+    auto& rows = boundary_.rows_at;
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
     return std::move(boundary_);
   }
 
@@ -108,16 +111,15 @@ class Finder {
         boundary_.wedges.push_back(wedge_of(mesh_.pinched_edge_tets()[i], e.vertex));
       place.last_wedge = static_cast<Index>(boundary_.wedges.size());
       boundary_.places.push_back(place);
-      for (const Index v : e.vertex) boundary_.touching.push_back({v, number});
+      for (const Index v : e.vertex) boundary_.rows_at.push_back({v, number});
     }
-    std::sort(boundary_.touching.begin(), boundary_.touching.end());
   }
   // Goes such an edge on where another one ends?
   bool extend_row(const Index (&edge)[2]) {
-    const auto& touching = boundary_.touching;
-    for (std::size_t i = 0; i < touching.size(); ++i)
+    const auto& rows_at = boundary_.rows_at;
+    for (std::size_t i = 0; i < rows_at.size(); ++i)
       for (const Index n : {0u, 1u}) {
-        const auto [v, number] = touching[i];
+        const auto [v, number] = rows_at[i];
         Place& row = boundary_.places[number];
         if (v != edge[n]) continue;
         const Point on = unit(points_[edge[1 - n]] - points_[v]);
@@ -126,7 +128,7 @@ class Finder {
         const double end = dot(points_[edge[1 - n]] - row.origin, row.along);
         row.low = std::min(row.low, end);
         row.high = std::max(row.high, end);
-        boundary_.touching.push_back({edge[1 - n], number});
+        boundary_.rows_at.push_back({edge[1 - n], number});
         return true;
       }
     return false;
@@ -185,6 +187,7 @@ class Finder {
       }
       Place& row = boundary_.places[place[first]];
       for (const Index v : bends_[e].end) {
+        boundary_.rows_at.push_back({v, place[first]});
         const double t = dot(points_[v] - row.origin, row.along);
         row.low = std::min(row.low, t);
         row.high = std::max(row.high, t);

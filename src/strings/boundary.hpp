@@ -38,7 +38,7 @@ struct Boundary {
   std::vector<Face> faces;
   std::vector<Place> places;  ///< rows of edges
   std::vector<Wedge> wedges;  ///< of edges where tetrahedra only touch
-  std::vector<std::pair<Index, Index>> touching;  ///< vertex and such an edge's place, ascending
+  std::vector<std::pair<Index, Index>> rows_at;  ///< vertex and a row of edges there, ascending
 };
 
 /// Cost: linear in the tetrahedra, and n log n in the boundary.

@@ -75,23 +75,28 @@ void SolidSpace::find_inside(const TetMesh<Real>& mesh) {
   }
 }
 
-// Of the parts of the solid at `p` the middle of the one that holds a direction best.
+// Of the parts of the solid at `p` that hold a direction the one that holds the second one best;
+// where none holds the first, of all of them.
 template <class Part>
 Point SolidSpace::into(std::span<const Part> parts, const Point& p, const Point& toward,
                        const Point& free) const {
-  const auto best_toward = [&](const Point& q, double& deepest) {
-    const Point d = unit(q - p);
-    const Part* best = nullptr;
-    for (const Part& part : parts) {
-      double depth = 1;
-      for (const Point& plane : part.plane) depth = std::min(depth, dot(plane, d));
-      if (best == nullptr || depth > deepest) deepest = depth, best = &part;
-    }
-    return best;
+  const Point first = unit(toward - p), second = unit(free - p);
+  const auto depth = [](const Part& part, const Point& d) {
+    double least = 1;
+    for (const Point& plane : part.plane) least = std::min(least, dot(plane, d));
+    return least;
   };
+  const Part* best = nullptr;
   double deepest = 0;
-  const Part* best = best_toward(toward, deepest);
-  if (deepest < -near_.on) best = best_toward(free, deepest);
+  bool held = false;
+  for (const Part& part : parts) {
+    const bool holds = depth(part, first) >= -near_.on;
+    const double now = depth(part, second);
+    if (best != nullptr && (held > holds || (held == holds && now <= deepest))) continue;
+    best = &part;
+    deepest = now;
+    held = holds;
+  }
   return p + near_.aside * best->middle;
 }
 

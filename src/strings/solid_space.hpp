@@ -33,8 +33,8 @@ class SolidSpace {
   [[nodiscard]] const Sight& sight() const { return sight_; }
   [[nodiscard]] double aside() const { return near_.aside; }
 
-  /// Where a leg from or to a vertex ends: a little inside the solid, for one `toward` a point; if
-  /// that is behind the boundary, for one toward `free`, where it was before.
+  /// Where a leg from or to a vertex ends: a little inside the solid, for one `toward` a point. On
+  /// which side of a face in that direction, or if it is behind the boundary, says `free`.
   [[nodiscard]] Point beside(Index vertex, const Point& toward, const Point& free) const {
     const Index slot = slot_[vertex];
     return slot == none ? points_[vertex] : beside_boundary(slot, vertex, toward, free);
@@ -42,13 +42,14 @@ class SolidSpace {
   /// The same from or to a point of an edge where tetrahedra only touch.
   [[nodiscard]] Point beside(const Place& place, double t, const Point& toward,
                              const Point& free) const;
-  /// Such edges at a vertex: vertex and place.
-  [[nodiscard]] std::span<const std::pair<Index, Index>> touching(Index vertex) const {
-    if (boundary_.touching.empty()) return {};
-    const auto begin = std::lower_bound(boundary_.touching.begin(), boundary_.touching.end(),
-                                        std::pair<Index, Index>{vertex, 0});
+  /// Rows of edges at a vertex: vertex and place.
+  [[nodiscard]] std::span<const std::pair<Index, Index>> rows_at(Index vertex) const {
+    if (slot_[vertex] == none) return {};
+    const auto& rows = boundary_.rows_at;
+    const auto begin =
+        std::lower_bound(rows.begin(), rows.end(), std::pair<Index, Index>{vertex, 0});
     auto end = begin;
-    while (end != boundary_.touching.end() && end->first == vertex) ++end;
+    while (end != rows.end() && end->first == vertex) ++end;
     return {begin, end};
   }
   [[nodiscard]] std::size_t bytes() const;

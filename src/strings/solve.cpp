@@ -64,9 +64,8 @@ void Solver::take(Index vertex, const Label& label) {
 void Solver::expand(Index vertex, const Label& label) {
   prepared_ = false;
   from_ = vertex;
-  for (const Index w : space_->neighbours(vertex)) offer(vertex, label, w, none);
-  for (const auto& [v, place] : space_->touching(vertex))
-    for (const Index w : space_->neighbours(vertex)) offer(vertex, label, w, place);
+  rows_ = space_->rows_at(vertex);
+  for (const Index w : space_->neighbours(vertex)) offer(vertex, label, w);
 }
 
 // The string to the vertex itself, whose legs are free.
@@ -94,52 +93,48 @@ void Solver::prepare(Index vertex, const Label& label) {
     a.legs[i] = {end_of_leg(a, i, i + 1, vertex), end_of_leg(a, i + 1, i, vertex), true};
 }
 
-// What a vertex has to another one; with one more place at the vertex, if there is one.
-void Solver::offer(Index from, const Label& label, Index to, Index through) {
+void Solver::offer(Index from, const Label& label, Index to) {
   VertexLabels& at = vertices_[to];
-  if (through == none && at.knows(label.chain)) return;
-  const Point &u = space_->point(from), &w = space_->point(to);
-  const double direct = label.distance + norm(w - u);
-  // The length of a chain is convex in where it ends.
-  const double least = through == none ? label.distance + dot(label.last, w - u) : direct;
-  if (through == none && least >= at.limit(behind_)) return;
+  const double direct = label.distance + norm(space_->point(to) - space_->point(from));
+  if (!at.knows(label.chain)) {
+    // The length of a chain is convex in where it ends.
+    const double least =
+        label.distance + dot(label.last, space_->point(to) - space_->point(from));
+    if (least >= at.limit(behind_)) return;
+    const Outcome outcome = attempt(from, label, to, none);
+    const bool as_offered = attempt_.places == base_.places;
+    if (outcome == Outcome::longer || (outcome == Outcome::free && as_offered))
+      at.remember(label.chain);
+  }
+  // Where it is stuck, or tetrahedra only touch, on past a bend at the vertex itself.
+  const auto too_long = [&] { return direct < at.best.distance * (1 - 1e-9); };
+  for (const auto& [vertex, row] : rows_)
+    if (too_long()) attempt(from, label, to, row);
+  if (too_long()) offer_corner(from, label, to, direct);
+}
+
+// A vertex' string, pulled to another one; with one more place at the vertex, if it says so.
+Solver::Outcome Solver::attempt(Index from, const Label& label, Index to, Index through) {
   ++counts_.offers;
   prepare(from, label);
   attempt_ = base_;
-  attempt_.string.to = w;
-  if (through != none) append(attempt_, through, u);
-  const double offset = sources_[attempt_.source].offset;
-  const double limit = at.limit(behind_) - offset;
+  attempt_.string.to = space_->point(to);
+  if (through != none) append(attempt_, through, space_->point(from));
+  const double limit = vertices_[to].limit(behind_) - sources_[attempt_.source].offset;
   Outcome outcome = settle(attempt_, to, limit);
-  const bool as_offered = attempt_.places == base_.places;
   if (outcome != Outcome::longer) outcome = without_held(attempt_, to, limit, outcome);
-  if (through == none && (outcome == Outcome::longer || (outcome == Outcome::free && as_offered)))
-    at.remember(label.chain);
 #ifdef TRACE
   if (to == trace_vertex) {
+    const Point u = space_->point(from);
     std::printf("offer from %u (%.3f %.3f %.3f) d %.6f chain %u: base", from, u.x, u.y, u.z, label.distance, label.chain);
     for (auto q : base_.places) std::printf(" %u", q);
-    std::printf(" through %d -> outcome %d length %.6f limit %.6f direct %.6f:", int(through), int(outcome), attempt_.string.length, limit, direct);
+    std::printf(" through %d -> outcome %d length %.6f limit %.6f:", int(through), int(outcome), attempt_.string.length, limit);
     for (std::size_t i = 0; i < attempt_.places.size(); ++i) std::printf(" %u[%.3f %.3f %.3f]", attempt_.places[i], attempt_.string.points[i].x, attempt_.string.points[i].y, attempt_.string.points[i].z);
     std::printf("\n");
   }
 #endif
-  const bool direct_is_less =
-      outcome == Outcome::stuck ||
-      (outcome == Outcome::free && direct < (offset + attempt_.string.length) * (1 - 1e-9));
-  if (direct_is_less) {
-    if (direct < at.best.distance) offer_corner(from, label, to, direct);
-  } else if (outcome == Outcome::free) {
-    accept(attempt_, to);
-  }
-}
-
-void Solver::append(Attempt& a, Index number, const Point& at) {
-  const Place* p = place(number);
-  a.places.push_back(number);
-  a.string.places.push_back(p);
-  a.string.at.push_back(dot(at - p->origin, p->along));
-  a.legs.push_back({at, at, false});
+  if (outcome == Outcome::free) accept(attempt_, to);
+  return outcome;
 }
 
 // Nothing better than straight on from the vertex itself, along the edge.
@@ -149,6 +144,14 @@ void Solver::offer_corner(Index from, const Label& label, Index to, double lengt
       chains_.with(label.chain, static_cast<Index>(space_->places().size()) + from);
   hints_.resize(chains_.size(), 0);
   take(to, {length, chain, unit(space_->point(to) - space_->point(from))});
+}
+
+void Solver::append(Attempt& a, Index number, const Point& at) {
+  const Place* p = place(number);
+  a.places.push_back(number);
+  a.string.places.push_back(p);
+  a.string.at.push_back(dot(at - p->origin, p->along));
+  a.legs.push_back({at, at, false});
 }
 
 const Place* Solver::place(Index number) {
@@ -165,7 +168,8 @@ const Place* Solver::place(Index number) {
 Point Solver::end_of_leg(const Attempt& a, std::size_t corner, std::size_t other, Index to) const {
   const Point &toward = a.string.corner(other),
               &free = other > corner ? a.legs[corner].to : a.legs[other].from;
-  if (corner > a.places.size()) return space_->beside(to, toward, free);
+  // The new end is seen from where the old one was: an edge of the mesh is between.
+  if (corner > a.places.size()) return space_->beside(to, toward, a.legs.back().to);
   if (corner == 0) {
     const Source& source = sources_[a.source];
     return source.vertex != none ? space_->beside(source.vertex, toward, free) : source.beside;

@@ -86,7 +86,8 @@ class Solver {
   void seed(std::span<const Source> sources);
   void expand(Index vertex, const Label& label);
   void prepare(Index vertex, const Label& label);
-  void offer(Index from, const Label& label, Index to, Index through);
+  void offer(Index from, const Label& label, Index to);
+  Outcome attempt(Index from, const Label& label, Index to, Index through);
   void append(Attempt& attempt, Index place, const Point& at);
   void offer_corner(Index from, const Label& label, Index to, double length);
   Outcome settle(Attempt& attempt, Index to, double limit);
@@ -111,6 +112,7 @@ class Solver {
   Puller puller_;
   Attempt base_, attempt_, other_;
   Index from_ = none;  // the vertex that offers
+  std::span<const std::pair<Index, Index>> rows_;  // there
   bool prepared_ = false;
   double behind_ = .5;
   Counts counts_;
