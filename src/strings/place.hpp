@@ -30,11 +30,13 @@ struct Place {
   /// Strings that come to it never lift off: a vertex, or an edge where tetrahedra only touch.
   [[nodiscard]] bool holds() const { return angle == 0; }
   [[nodiscard]] Point at(double t) const { return origin + t * along; }
-  /// A little inside the solid, and off the ends, where other faces begin.
-  [[nodiscard]] Point beside(double t, double by) const {
+  /// Off the ends, where other faces begin.
+  [[nodiscard]] Point off_ends(double t, double by) const {
     const double off = std::min(3 * by, (high - low) / 2);
-    return at(std::clamp(t, low + off, high - off)) + by * into;
+    return at(std::clamp(t, low + off, high - off));
   }
+  /// A little inside the solid.
+  [[nodiscard]] Point beside(double t, double by) const { return off_ends(t, by) + by * into; }
 
   /// Where a direction leads, measured through the solid from the first plane. One that leads into
   /// the obstacle counts to the nearer plane.

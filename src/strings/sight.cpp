@@ -98,9 +98,24 @@ void Sight::along(const Point& from, const Point& to, const Visit& visit) const 
 }
 
 bool Sight::is_blocked(const Point& from, const Point& to) const {
-  bool found = false;
-  along(from, to, [&](const Wall&) { return found = true; });
-  return found;
+  bool blocked = false, grazing = false;
+  Point off{};
+  along(from, to, [&](const Wall& wall) {
+    const double before = std::max(wall.plane.height(from), 0.);
+    const Point at = from + before / (before - wall.plane.height(to)) * (to - from);
+    bool inside = true;
+    for (const Plane& side : wall.side) {
+      if (side.height(at) > near_.on) continue;
+      inside = false;
+      if (!grazing) off = -0.01 * near_.aside * side.normal;  // less than ends are off faces
+    }
+    grazing = true;
+    return blocked = inside;
+  });
+  if (blocked || !grazing) return blocked;
+  // It only touches edges: is it free beside them?
+  along(from + off, to + off, [&](const Wall&) { return blocked = true; });
+  return blocked;
 }
 
 std::optional<Sight::Touch> Sight::touch(const Point& from, const Point& to, const Point& free,

@@ -20,7 +20,9 @@ class Sight {
   Sight() = default;
   Sight(const Boundary& boundary, std::span<const Point> points, const Tolerances& near);
 
-  /// Is a face between them? Ends lie a little inside the solid, or on what hides nothing.
+  /// Is a face between them? Ends lie a little inside the solid, or on what hides nothing. A leg
+  /// that no more than touches edges is free if it is beside them: in the plane of a crack the side
+  /// is open.
   [[nodiscard]] bool is_blocked(const Point& from, const Point& to) const;
 
   /// A place, and how far along it.

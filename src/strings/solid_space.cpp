@@ -113,7 +113,7 @@ Point SolidSpace::beside(const Place& place, double t, const Point& toward,
                          const Point& free) const {
   return into(std::span<const Boundary::Wedge>(boundary_.wedges)
                   .subspan(place.first_wedge, place.last_wedge - place.first_wedge),
-              place.at(t), toward, free);
+              place.off_ends(t, near_.aside), toward, free);
 }
 
 std::size_t SolidSpace::bytes() const {
