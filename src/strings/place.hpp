@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <plexway/complex/detail/tet_record.hpp>
 
@@ -50,11 +51,19 @@ struct Place {
     if (dot(before, before) < 1e-18) return now;
     return now + turn * std::round((angle_of(before) - now) / turn);
   }
-  /// Does a string press against the obstacle between legs that leave at these angles?
+  /// Does a string press against the obstacle between legs that leave at these angles? A leg in
+  /// the plane of a crack is on both of its sides.
   [[nodiscard]] bool presses(double a, double b) const {
     constexpr double slack = 1e-6;  // costs its square
     if (std::min(a, b) < -slack || std::max(a, b) > angle + slack) return true;
-    return std::abs(a - b) >= std::numbers::pi - slack;
+    const auto sides = [&](double x) {
+      constexpr double same = 1e-10;
+      if (angle < turn - same) return std::pair{x, x};
+      return std::pair{x > angle - same ? 0 : x, x < same ? angle : x};
+    };
+    const auto [least_a, most_a] = sides(a);
+    const auto [least_b, most_b] = sides(b);
+    return std::max(most_a - least_b, most_b - least_a) >= std::numbers::pi - slack;
   }
 
   static constexpr double turn = 2 * std::numbers::pi;
