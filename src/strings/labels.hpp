@@ -38,28 +38,32 @@ struct VertexLabels {
     tried[next] = chain;
     next = (next + 1) % remembered;
   }
-  /// Strings as long as this are of no use.
-  [[nodiscard]] double limit(double behind) const {
+  /// Strings as long as this, that end in about this direction, are of no use.
+  [[nodiscard]] double limit(const Point& direction, double behind) const {
+    if (!differ(best.last, direction)) return best.distance;
     return std::min(best.distance + behind, second.distance);
   }
   /// Takes a string; false if it is of no use.
   bool take(const Label& label, double behind) {
-    constexpr double alike = .99;  // cosine
-    const auto differ = [](const Label& a, const Label& b) { return dot(a.last, b.last) < alike; };
     if (label.distance < best.distance) {
       if (best.chain != label.chain && best.distance < label.distance + behind &&
-          differ(best, label))
+          differ(best.last, label.last))
         second = best;
-      else if (second.chain == label.chain || !differ(second, label) ||
+      else if (second.chain == label.chain || !differ(second.last, label.last) ||
                !(second.distance < label.distance + behind))
         second = {};
       best = label;
       return true;
     }
-    if (label.chain == best.chain || !(label.distance < limit(behind)) || !differ(best, label))
-      return false;
+    if (label.chain == best.chain || !(label.distance < limit(label.last, behind))) return false;
     second = label;
     return true;
+  }
+
+ private:
+  static bool differ(const Point& a, const Point& b) {
+    constexpr double alike = .99;  // cosine
+    return dot(a, b) < alike;
   }
 };
 

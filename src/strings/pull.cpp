@@ -16,14 +16,15 @@ Point across(const Place& place, const Point& p) {
 
 }  // namespace
 
-// One bend: unfold both sides of the line into a plane.
+// One bend, the last: unfold both sides of the line into a plane.
 void Puller::pull_one(String& string) const {
-  const Place& place = *string.places[0];
-  const double a = dot(string.from - place.origin, place.along),
+  const Place& place = *string.places.back();
+  const Point& from = string.corner(string.bends() - 1);
+  const double a = dot(from - place.origin, place.along),
                b = dot(string.to - place.origin, place.along),
-               near = norm(across(place, string.from)), far = norm(across(place, string.to));
+               near = norm(across(place, from)), far = norm(across(place, string.to));
   const double t = near + far > 0 ? a + (b - a) * near / (near + far) : a;
-  string.at[0] = std::clamp(t, place.low, place.high);
+  string.at.back() = std::clamp(t, place.low, place.high);
 }
 
 double Puller::measure(String& string) {
@@ -31,9 +32,9 @@ double Puller::measure(String& string) {
   legs_.resize(n + 1);
   lengths_.resize(n + 1);
   string.points.resize(n);
-  double sum = 0;
-  Point last = string.from;
-  for (std::size_t i = 0; i <= n; ++i) {
+  double sum = string.held_length;
+  Point last = string.corner(string.held);
+  for (std::size_t i = string.held; i <= n; ++i) {
     if (i < n) string.points[i] = string.places[i]->at(string.at[i]);
     const Point& next = i < n ? string.points[i] : string.to;
     const Point leg = next - last;
@@ -51,7 +52,7 @@ void Puller::differentiate(const String& string) {
   gradient_.resize(n);
   diagonal_.resize(n);
   beside_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = string.held; i < n; ++i) {
     const Point& d = string.places[i]->along;
     const double in = dot(d, legs_[i]), out = dot(d, legs_[i + 1]);
     gradient_[i] = in - out;
@@ -73,7 +74,8 @@ double Puller::solve(const String& string) {
            (string.at[i] >= p.high && gradient_[i] < 0);
   };
   bool last_held = true;
-  for (std::size_t i = 0; i < n; ++i) {
+  const std::size_t first = string.held;
+  for (std::size_t i = first; i < n; ++i) {
     const bool now = held(i);
     if (now) {
       diagonal_[i] = 1;
@@ -81,16 +83,16 @@ double Puller::solve(const String& string) {
     } else {
       diagonal_[i] += 1e-12;
     }
-    if (i > 0 && (now || last_held)) beside_[i - 1] = 0;
+    if (i > first && (now || last_held)) beside_[i - 1] = 0;
     last_held = now;
     move_[i] = -gradient_[i];
-    if (i == 0 || beside_[i - 1] == 0) continue;
+    if (i == first || beside_[i - 1] == 0) continue;
     const double share = beside_[i - 1] / diagonal_[i - 1];
     diagonal_[i] = std::max(diagonal_[i] - share * beside_[i - 1], 1e-12);
     move_[i] -= share * move_[i - 1];
   }
   double slope = 0;
-  for (std::size_t i = n; i-- > 0;) {
+  for (std::size_t i = n; i-- > first;) {
     if (i + 1 < n) move_[i] -= beside_[i] * move_[i + 1];
     move_[i] /= diagonal_[i];
     slope += gradient_[i] * move_[i];
@@ -99,18 +101,20 @@ double Puller::solve(const String& string) {
 }
 
 // Along the move, as far as the string gets shorter. False if it does not.
-bool Puller::step(String& string, double slope) {
+bool Puller::step(String& string, double slope, bool ends) {
   kept_ = string.at;
   double share = 1;
-  for (int tries = 0; tries < 30; ++tries, share /= 2) {
-    for (std::size_t i = 0; i < kept_.size(); ++i)
+  for (int tries = 0; tries < 12; ++tries, share /= 4) {
+    for (std::size_t i = string.held; i < kept_.size(); ++i)
       string.at[i] = std::clamp(kept_[i] + share * move_[i], string.places[i]->low,
                                 string.places[i]->high);
     const double length = measure(string);
-    if (length <= string.length + 1e-4 * share * slope) {
+    if (length <= string.length + 1e-4 * share * slope ||
+        (ends && length <= string.length * (1 + 1e-15))) {
       string.length = length;
       return true;
     }
+    if (ends) break;
   }
   string.at = kept_;
   string.length = measure(string);
@@ -118,21 +122,20 @@ bool Puller::step(String& string, double slope) {
 }
 
 void Puller::pull(String& string) {
-  constexpr double done = 1e-17;  // that much shorter is no shorter
+  // Newton's error is squared by each step, and the length's is the square of that of the bends:
+  // once a step makes this share of a difference, it is the last.
+  constexpr double last = 1e-9;
   const std::size_t n = string.bends();
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = string.held; i < n; ++i)
     string.at[i] = std::clamp(string.at[i], string.places[i]->low, string.places[i]->high);
-  if (n == 1) pull_one(string);
+  if (n == string.held + 1) pull_one(string);
   string.length = measure(string);
-  if (n > 1) {
-    for (int round = 0; round < 60; ++round) {
-      differentiate(string);
-      const double slope = solve(string);
-      if (!(-slope > done * string.length)) break;
-      const double before = string.length;
-      if (!step(string, slope)) break;
-      if (before - string.length < 1e-15 * before && round > 2) break;
-    }
+  if (n < string.held + 2) return;
+  for (int round = 0; round < 40; ++round) {
+    differentiate(string);
+    const double slope = solve(string);
+    const bool ends = -slope < last * string.length;
+    if (!step(string, slope, ends) || ends) return;
   }
 }
 

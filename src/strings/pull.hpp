@@ -1,6 +1,6 @@
 #pragma once
 
-#include <span>
+#include <cstddef>
 #include <vector>
 
 #include "strings/place.hpp"
@@ -15,11 +15,19 @@ struct String {
   std::vector<double> at;     ///< how far along each place: where a pull starts, and what it finds
   std::vector<Point> points;  ///< there
   double length = 0;
+  std::size_t held = 0;  ///< so many places that a pull leaves alone: their `at` is as it should be
+  double held_length = 0;
 
   [[nodiscard]] std::size_t bends() const { return places.size(); }
   /// The n-th corner, ends included.
   [[nodiscard]] const Point& corner(std::size_t n) const {
     return n == 0 ? from : n > bends() ? to : points[n - 1];
+  }
+  /// Of a string that was pulled, the first places shall stay as they are.
+  void hold(std::size_t count) {
+    held = count;
+    held_length = 0;
+    for (std::size_t n = 0; n < count; ++n) held_length += norm(corner(n + 1) - corner(n));
   }
 };
 
@@ -35,7 +43,7 @@ class Puller {
   double measure(String& string);  // points, legs, length
   void differentiate(const String& string);
   double solve(const String& string);
-  bool step(String& string, double slope);
+  bool step(String& string, double slope, bool ends);
 
   std::vector<Point> legs_;      // unit vectors
   std::vector<double> lengths_;  // of legs

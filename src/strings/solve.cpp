@@ -11,6 +11,7 @@ unsigned trace_vertex = ~0u;
 namespace plexway::strings {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double still = 1e-9;  // an end that moved less did not move
 
 }  // namespace
@@ -85,6 +86,7 @@ void Solver::prepare(Index vertex, const Label& label) {
     a.string.at[i] = hints_[chain];
   for (const Index p : a.places) a.string.places.push_back(place(p));
   ++counts_.pulls;
+  a.string.hold(0);
   puller_.pull(a.string);
   a.legs.clear();
   for (std::size_t i = 0; i <= a.places.size(); ++i)
@@ -100,7 +102,7 @@ void Solver::offer(Index from, const Label& label, Index to) {
     // The length of a chain is convex in where it ends.
     const double least =
         label.distance + dot(label.last, space_->point(to) - space_->point(from));
-    if (least >= at.limit(behind_)) return;
+    if (least >= at.limit(label.last, behind_)) return;
     const Outcome outcome = attempt(from, label, to, none);
     const bool as_offered = attempt_.places == base_.places;
     if (outcome == Outcome::longer || (outcome == Outcome::free && as_offered))
@@ -120,15 +122,14 @@ Solver::Outcome Solver::attempt(Index from, const Label& label, Index to, Index 
   attempt_ = base_;
   attempt_.string.to = space_->point(to);
   if (through != none) append(attempt_, through, space_->point(from));
-  const double limit = vertices_[to].limit(behind_) - sources_[attempt_.source].offset;
-  Outcome outcome = settle(attempt_, to, limit);
-  if (outcome != Outcome::longer) outcome = without_held(attempt_, to, limit, outcome);
+  Outcome outcome = settle(attempt_, to, infinity);
+  if (outcome != Outcome::longer) outcome = without_held(attempt_, to, outcome);
 #ifdef TRACE
   if (to == trace_vertex) {
     const Point u = space_->point(from);
     std::printf("offer from %u (%.3f %.3f %.3f) d %.6f chain %u: base", from, u.x, u.y, u.z, label.distance, label.chain);
     for (auto q : base_.places) std::printf(" %u", q);
-    std::printf(" through %d -> outcome %d length %.6f limit %.6f:", int(through), int(outcome), attempt_.string.length, limit);
+    std::printf(" through %d -> outcome %d length %.6f best %.6f:", int(through), int(outcome), attempt_.string.length, vertices_[to].best.distance);
     for (std::size_t i = 0; i < attempt_.places.size(); ++i) std::printf(" %u[%.3f %.3f %.3f]", attempt_.places[i], attempt_.string.points[i].x, attempt_.string.points[i].y, attempt_.string.points[i].z);
     std::printf("\n");
   }
@@ -182,7 +183,7 @@ Point Solver::end_of_leg(const Attempt& a, std::size_t corner, std::size_t other
 }
 
 bool Solver::drop_lifted(Attempt& a, Index to) {
-  for (std::size_t i = a.places.size(); i-- > 0;) {
+  for (std::size_t i = a.places.size(); i-- > a.string.held;) {
     const Place& place = *a.string.places[i];
     if (place.holds()) continue;
     const Point& at = a.string.points[i];
@@ -218,7 +219,7 @@ std::size_t Solver::blocked(const Attempt& a, Index to) {
     const Point d = p - q;
     return dot(d, d) > still * still;
   };
-  for (std::size_t i = a.legs.size(); i-- > 0;) {
+  for (std::size_t i = a.legs.size(); i-- > a.string.held;) {
     if (i + 1 == a.legs.size() && is_edge(a)) continue;
     const Point from = end_of_leg(a, i, i + 1, to), end = end_of_leg(a, i + 1, i, to);
     const Leg& leg = a.legs[i];
@@ -251,29 +252,49 @@ bool Solver::insert_touched(Attempt& a, std::size_t n, Index to) {
   return true;
 }
 
-Solver::Outcome Solver::settle(Attempt& a, Index to, double limit) {
-  constexpr int most = 24;
+// Pulled, places dropped and put in until all legs are free; no further if it is of no use, or
+// as long as `least`. Of a long string its end first, the rest held as it is.
+Solver::Outcome Solver::settle(Attempt& a, Index to, double least) {
+  constexpr int most = 32;
+  constexpr std::size_t loose = 3;
+  String& string = a.string;
+  const auto hold = [&] { string.hold(std::max(string.bends(), loose) - loose); };
+  const double offset = sources_[a.source].offset;
+  hold();
   for (int round = 0; round < most; ++round) {
     ++counts_.pulls;
-    puller_.pull(a.string);
-    if (drop_lifted(a, to)) continue;
-    if (!(a.string.length < limit)) return Outcome::longer;
+    puller_.pull(string);
+    if (drop_lifted(a, to)) {
+      if (string.held > 0 && string.bends() < string.held + 2) hold();
+      continue;
+    }
+    // What is held may gain a little.
+    const double gain = string.held > 0 ? 1e-3 : 0;
+    if (!(string.length < least) ||
+        !(offset + string.length < vertices_[to].limit(last_leg(a), behind_) + gain))
+      return Outcome::longer;
     const std::size_t leg = blocked(a, to);
-    if (leg == a.legs.size()) return Outcome::free;
-    if (!insert_touched(a, leg, to)) break;
+    if (leg < a.legs.size()) {
+      if (!insert_touched(a, leg, to)) break;
+    } else if (string.held == 0) {
+      return Outcome::free;
+    } else {
+      string.hold(0);
+    }
   }
-  puller_.pull(a.string);
+  string.hold(0);
+  puller_.pull(string);
   return Outcome::stuck;
 }
 
 // A string held at the end of a place may be shorter past it.
-Solver::Outcome Solver::without_held(Attempt& a, Index to, double limit, Outcome outcome) {
+Solver::Outcome Solver::without_held(Attempt& a, Index to, Outcome outcome) {
   for (std::size_t i = a.places.size(); i-- > 0;) {
     if (i >= a.places.size() || !is_held(a.string, i)) continue;
     ++counts_.held;
     other_ = a;
     drop(other_, i, end_of_leg(a, i + 1, i, to));
-    const double less = outcome == Outcome::free ? a.string.length * (1 - 1e-12) : limit;
+    const double less = outcome == Outcome::free ? a.string.length * (1 - 1e-12) : infinity;
     if (settle(other_, to, less) != Outcome::free) continue;
     std::swap(a, other_);
     outcome = Outcome::free;
@@ -290,7 +311,7 @@ void Solver::accept(const Attempt& a, Index to) {
   }
   vertices_[to].remember(chain);
   take(to, {sources_[a.source].offset + a.string.length, chain,
-            unit(a.string.to - a.string.corner(a.places.size()))});
+            last_leg(a)});
 }
 
 std::size_t Solver::bytes() const {

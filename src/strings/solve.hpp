@@ -90,8 +90,11 @@ class Solver {
   Outcome attempt(Index from, const Label& label, Index to, Index through);
   void append(Attempt& attempt, Index place, const Point& at);
   void offer_corner(Index from, const Label& label, Index to, double length);
-  Outcome settle(Attempt& attempt, Index to, double limit);
-  Outcome without_held(Attempt& attempt, Index to, double limit, Outcome outcome);
+  Outcome settle(Attempt& attempt, Index to, double least);
+  Outcome without_held(Attempt& attempt, Index to, Outcome outcome);
+  static Point last_leg(const Attempt& a) {
+    return unit(a.string.to - a.string.corner(a.places.size()));
+  }
   [[nodiscard]] bool is_edge(const Attempt& attempt) const;
   bool drop_lifted(Attempt& attempt, Index to);
   std::size_t blocked(const Attempt& attempt, Index to);
