@@ -16,15 +16,17 @@ Point across(const Place& place, const Point& p) {
 
 }  // namespace
 
-// One bend, the last: unfold both sides of the line into a plane.
-void Puller::pull_one(String& string) const {
-  const Place& place = *string.places.back();
-  const Point& from = string.corner(string.bends() - 1);
-  const double a = dot(from - place.origin, place.along),
-               b = dot(string.to - place.origin, place.along),
-               near = norm(across(place, from)), far = norm(across(place, string.to));
-  const double t = near + far > 0 ? a + (b - a) * near / (near + far) : a;
-  string.at.back() = std::clamp(t, place.low, place.high);
+// Each bend for itself, its neighbours fixed: unfold both sides of its line into a plane.
+void Puller::pull_each(String& string) const {
+  for (std::size_t i = string.held; i < string.bends(); ++i) {
+    const Place& place = *string.places[i];
+    const Point &from = string.corner(i), &to = string.corner(i + 2);
+    const double a = dot(from - place.origin, place.along), b = dot(to - place.origin, place.along),
+                 near = norm(across(place, from)), far = norm(across(place, to));
+    if (near + far > 0)
+      string.at[i] = std::clamp(a + (b - a) * near / (near + far), place.low, place.high);
+    string.points[i] = place.at(string.at[i]);
+  }
 }
 
 double Puller::measure(String& string) {
@@ -100,24 +102,19 @@ double Puller::solve(const String& string) {
   return slope;
 }
 
-// Along the move, as far as the string gets shorter. False if it does not.
-bool Puller::step(String& string, double slope, bool ends) {
+// Along the move. False if that is no shorter, and nothing is changed.
+bool Puller::step(String& string, double least) {
   kept_ = string.at;
-  double share = 1;
-  for (int tries = 0; tries < 12; ++tries, share /= 4) {
-    for (std::size_t i = string.held; i < kept_.size(); ++i)
-      string.at[i] = std::clamp(kept_[i] + share * move_[i], string.places[i]->low,
-                                string.places[i]->high);
-    const double length = measure(string);
-    if (length <= string.length + 1e-4 * share * slope ||
-        (ends && length <= string.length * (1 + 1e-15))) {
-      string.length = length;
-      return true;
-    }
-    if (ends) break;
+  for (std::size_t i = string.held; i < kept_.size(); ++i)
+    string.at[i] =
+        std::clamp(kept_[i] + move_[i], string.places[i]->low, string.places[i]->high);
+  const double length = measure(string);
+  if (length <= string.length - least) {
+    string.length = length;
+    return true;
   }
   string.at = kept_;
-  string.length = measure(string);
+  measure(string);
   return false;
 }
 
@@ -125,17 +122,31 @@ void Puller::pull(String& string) {
   // Newton's error is squared by each step, and the length's is the square of that of the bends:
   // once a step makes this share of a difference, it is the last.
   constexpr double last = 1e-9;
+  constexpr double rounding = 1e-15;
+  constexpr int most = 24;
   const std::size_t n = string.bends();
   for (std::size_t i = string.held; i < n; ++i)
     string.at[i] = std::clamp(string.at[i], string.places[i]->low, string.places[i]->high);
-  if (n == string.held + 1) pull_one(string);
   string.length = measure(string);
-  if (n < string.held + 2) return;
-  for (int round = 0; round < 40; ++round) {
+  if (n == string.held) return;
+  if (n == string.held + 1) {
+    pull_each(string);
+    string.length = measure(string);
+    return;
+  }
+  for (int round = 0; round < most; ++round) {
     differentiate(string);
     const double slope = solve(string);
     const bool ends = -slope < last * string.length;
-    if (!step(string, slope, ends) || ends) return;
+    if (step(string, ends ? -rounding * string.length : -1e-4 * slope)) {
+      if (ends) return;
+      continue;
+    }
+    // Too far, or over a corner where rows of edges meet.
+    const double before = string.length;
+    pull_each(string);
+    string.length = measure(string);
+    if (!(string.length < before * (1 - 10 * rounding))) return;
   }
 }
 

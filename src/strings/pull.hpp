@@ -32,18 +32,19 @@ struct String {
 };
 
 /// Makes strings as short as they can be along their places. The length is convex in where they
-/// bend, and each bend knows its neighbours alone: Newton's method on a tridiagonal system. Bends
-/// stay at the end of a place while the string presses them outward.
+/// bend, and each bend knows its neighbours alone: Newton's method on a tridiagonal system, and where
+/// that goes too far, each bend for itself. Bends stay at the end of a place while the string presses
+/// them outward.
 class Puller {
  public:
   void pull(String& string);
 
  private:
-  void pull_one(String& string) const;
+  void pull_each(String& string) const;
   double measure(String& string);  // points, legs, length
   void differentiate(const String& string);
   double solve(const String& string);
-  bool step(String& string, double slope, bool ends);
+  bool step(String& string, double least);
 
   std::vector<Point> legs_;      // unit vectors
   std::vector<double> lengths_;  // of legs
