@@ -13,7 +13,7 @@ constexpr double pi = std::numbers::pi;
 
 // An edge of the boundary where a string may bend.
 struct Bend {
-  Index face, edge;         // one of its two faces
+  Index face, edge;  // one of its two faces
   std::array<Index, 2> end;
   std::array<Point, 2> normal;  // of both faces
   double angle;
@@ -95,7 +95,8 @@ class Finder {
   // The angle of a tetrahedron at its edge a b.
   [[nodiscard]] double wedge(Index a, Index b, Index c, Index d) const {
     const Point along = points_[b] - points_[a];
-    const Point p = cross(along, points_[c] - points_[a]), q = cross(along, points_[d] - points_[a]);
+    const Point p = cross(along, points_[c] - points_[a]),
+                q = cross(along, points_[d] - points_[a]);
     return std::atan2(norm(cross(p, q)), dot(p, q));
   }
 

@@ -36,8 +36,8 @@ struct Boundary {
     Point plane[2], middle;
   };
   std::vector<Face> faces;
-  std::vector<Place> places;  ///< rows of edges
-  std::vector<Wedge> wedges;  ///< of edges where tetrahedra only touch
+  std::vector<Place> places;                     ///< rows of edges
+  std::vector<Wedge> wedges;                     ///< of edges where tetrahedra only touch
   std::vector<std::pair<Index, Index>> rows_at;  ///< vertex and a row of edges there, ascending
 };
 

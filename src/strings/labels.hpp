@@ -38,10 +38,13 @@ struct VertexLabels {
     tried[next] = chain;
     next = (next + 1) % remembered;
   }
-  /// Strings as long as this, that end in about this direction, are of no use.
-  [[nodiscard]] double limit(const Point& direction, double behind) const {
-    if (!differ(best.last, direction)) return best.distance;
+  /// Strings as long as this are of no use, whatever direction they come from.
+  [[nodiscard]] double limit(double behind) const {
     return std::min(best.distance + behind, second.distance);
+  }
+  /// The same for one from this direction.
+  [[nodiscard]] double limit(double behind, const Point& last) const {
+    return differ(best.last, last) ? limit(behind) : best.distance;
   }
   /// Takes a string; false if it is of no use.
   bool take(const Label& label, double behind) {
@@ -55,7 +58,7 @@ struct VertexLabels {
       best = label;
       return true;
     }
-    if (label.chain == best.chain || !(label.distance < limit(label.last, behind))) return false;
+    if (label.chain == best.chain || !(label.distance < limit(behind, label.last))) return false;
     second = label;
     return true;
   }

@@ -20,12 +20,12 @@ inline Point unit(const Point& a) {
 
 /// A row of edges between the same two planes of the boundary, or a single point (low = high).
 struct Place {
-  Point origin, along;    ///< of points origin + t along, `along` a unit vector
-  double low, high;       ///< the least and the greatest t
-  Point into;             ///< into the solid, unit: halfway between the two planes
-  Point floor, normal;    ///< across it: within the first plane, and square to that into the solid
-  double angle;           ///< of solid around it, from the first plane to the second
-  Index vertex = none;    ///< of a single point
+  Point origin, along;  ///< of points origin + t along, `along` a unit vector
+  double low, high;     ///< the least and the greatest t
+  Point into;           ///< into the solid, unit: halfway between the two planes
+  Point floor, normal;  ///< across it: within the first plane, and square to that into the solid
+  double angle;         ///< of solid around it, from the first plane to the second
+  Index vertex = none;  ///< of a single point
   Index first_wedge = 0, last_wedge = 0;  ///< where tetrahedra only touch: Boundary::wedges
 
   /// Strings that come to it never lift off: a vertex, or an edge where tetrahedra only touch.

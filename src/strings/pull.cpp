@@ -106,8 +106,7 @@ double Puller::solve(const String& string) {
 bool Puller::step(String& string, double least) {
   kept_ = string.at;
   for (std::size_t i = string.held; i < kept_.size(); ++i)
-    string.at[i] =
-        std::clamp(kept_[i] + move_[i], string.places[i]->low, string.places[i]->high);
+    string.at[i] = std::clamp(kept_[i] + move_[i], string.places[i]->low, string.places[i]->high);
   const double length = measure(string);
   if (length <= string.length - least) {
     string.length = length;

@@ -32,9 +32,9 @@ struct String {
 };
 
 /// Makes strings as short as they can be along their places. The length is convex in where they
-/// bend, and each bend knows its neighbours alone: Newton's method on a tridiagonal system, and where
-/// that goes too far, each bend for itself. Bends stay at the end of a place while the string presses
-/// them outward.
+/// bend, and each bend knows its neighbours alone: Newton's method on a tridiagonal system, and
+/// where that goes too far, each bend for itself. Bends stay at the end of a place while the string
+/// presses them outward.
 class Puller {
  public:
   void pull(String& string);

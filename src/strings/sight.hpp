@@ -38,7 +38,9 @@ class Sight {
                                            const std::array<Index, 2>& known) const;
 
   [[nodiscard]] std::size_t hiding() const { return walls_.size(); }
-  [[nodiscard]] std::size_t bytes() const { return walls_.capacity() * sizeof(Wall) + tree_.bytes(); }
+  [[nodiscard]] std::size_t bytes() const {
+    return walls_.capacity() * sizeof(Wall) + tree_.bytes();
+  }
 
  private:
   struct Plane {

@@ -31,7 +31,7 @@ void SolidSpace::join(const TetMesh<Real>& mesh) {
 
 template <class Real>
 void SolidSpace::find_inside(const TetMesh<Real>& mesh) {
-  constexpr double clear = .05;  // of a cosine
+  constexpr double clear = .05;             // of a cosine
   std::vector<std::pair<Index, Index>> at;  // vertex, face
   for (Index f = 0; f < boundary_.faces.size(); ++f)
     for (const Index v : boundary_.faces[f].corner) at.push_back({v, f});
@@ -118,8 +118,8 @@ Point SolidSpace::beside(const Place& place, double t, const Point& toward,
 
 std::size_t SolidSpace::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return sizeof(*this) + of(points_) + of(boundary_.faces) + of(boundary_.places) +
-         sight_.bytes() + of(begin_) + of(neighbours_) + of(slot_) + of(inside_) + of(cones_);
+  return sizeof(*this) + of(points_) + of(boundary_.faces) + of(boundary_.places) + sight_.bytes() +
+         of(begin_) + of(neighbours_) + of(slot_) + of(inside_) + of(cones_);
 }
 
 template SolidSpace::SolidSpace(const TetMesh<float>&);

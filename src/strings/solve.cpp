@@ -100,13 +100,11 @@ void Solver::offer(Index from, const Label& label, Index to) {
   const double direct = label.distance + norm(space_->point(to) - space_->point(from));
   if (!at.knows(label.chain)) {
     // The length of a chain is convex in where it ends.
-    const double least =
-        label.distance + dot(label.last, space_->point(to) - space_->point(from));
-    if (least >= at.limit(label.last, behind_)) return;
+    const double least = label.distance + dot(label.last, space_->point(to) - space_->point(from));
+    if (least >= at.limit(behind_, label.last)) return;
     const Outcome outcome = attempt(from, label, to, none);
-    const bool as_offered = attempt_.places == base_.places;
-    if (outcome == Outcome::longer || (outcome == Outcome::free && as_offered))
-      at.remember(label.chain);
+    // Where it was blocked it may come past on another side from another vertex.
+    if (outcome != Outcome::stuck && !attempt_.touched) at.remember(label.chain);
   }
   // Where it is stuck, or tetrahedra only touch, on past a bend at the vertex itself.
   const auto too_long = [&] { return direct < at.best.distance * (1 - 1e-9); };
@@ -120,6 +118,7 @@ Solver::Outcome Solver::attempt(Index from, const Label& label, Index to, Index 
   ++counts_.offers;
   prepare(from, label);
   attempt_ = base_;
+  attempt_.touched = false;
   attempt_.string.to = space_->point(to);
   if (through != none) append(attempt_, through, space_->point(from));
   Outcome outcome = settle(attempt_, to, infinity);
@@ -127,10 +126,14 @@ Solver::Outcome Solver::attempt(Index from, const Label& label, Index to, Index 
 #ifdef TRACE
   if (to == trace_vertex) {
     const Point u = space_->point(from);
-    std::printf("offer from %u (%.3f %.3f %.3f) d %.6f chain %u: base", from, u.x, u.y, u.z, label.distance, label.chain);
+    std::printf("offer from %u (%.3f %.3f %.3f) d %.6f chain %u: base", from, u.x, u.y, u.z,
+                label.distance, label.chain);
     for (auto q : base_.places) std::printf(" %u", q);
-    std::printf(" through %d -> outcome %d length %.6f best %.6f:", int(through), int(outcome), attempt_.string.length, vertices_[to].best.distance);
-    for (std::size_t i = 0; i < attempt_.places.size(); ++i) std::printf(" %u[%.3f %.3f %.3f]", attempt_.places[i], attempt_.string.points[i].x, attempt_.string.points[i].y, attempt_.string.points[i].z);
+    std::printf(" through %d -> outcome %d length %.6f best %.6f:", int(through), int(outcome),
+                attempt_.string.length, vertices_[to].best.distance);
+    for (std::size_t i = 0; i < attempt_.places.size(); ++i)
+      std::printf(" %u[%.3f %.3f %.3f]", attempt_.places[i], attempt_.string.points[i].x,
+                  attempt_.string.points[i].y, attempt_.string.points[i].z);
     std::printf("\n");
   }
 #endif
@@ -141,8 +144,7 @@ Solver::Outcome Solver::attempt(Index from, const Label& label, Index to, Index 
 // Nothing better than straight on from the vertex itself, along the edge.
 void Solver::offer_corner(Index from, const Label& label, Index to, double length) {
   ++counts_.corners;
-  const Index chain =
-      chains_.with(label.chain, static_cast<Index>(space_->places().size()) + from);
+  const Index chain = chains_.with(label.chain, static_cast<Index>(space_->places().size()) + from);
   hints_.resize(chains_.size(), 0);
   take(to, {length, chain, unit(space_->point(to) - space_->point(from))});
 }
@@ -160,8 +162,8 @@ const Place* Solver::place(Index number) {
   const Index vertex = number - static_cast<Index>(space_->places().size());
   const Point zero = {0, 0, 0};
   return &corners_
-              .try_emplace(vertex, Place{space_->point(vertex), zero, 0, 0, zero, zero, zero, 0,
-                                         vertex})
+              .try_emplace(vertex,
+                           Place{space_->point(vertex), zero, 0, 0, zero, zero, zero, 0, vertex})
               .first->second;
 }
 
@@ -241,6 +243,7 @@ bool Solver::insert_touched(Attempt& a, std::size_t n, Index to) {
   const auto touch = backward ? space_->sight().touch(end, from, leg.from, known)
                               : space_->sight().touch(from, end, leg.to, known);
   if (!touch) return false;
+  a.touched = true;
   const Place* place = this->place(touch->place);
   const Point at = place->beside(touch->at, space_->aside());
   const auto before = static_cast<std::ptrdiff_t>(n);
@@ -270,8 +273,8 @@ Solver::Outcome Solver::settle(Attempt& a, Index to, double least) {
     }
     // What is held may gain a little.
     const double gain = string.held > 0 ? 1e-3 : 0;
-    if (!(string.length < least) ||
-        !(offset + string.length < vertices_[to].limit(last_leg(a), behind_) + gain))
+    const double length = offset + string.length - gain;
+    if (!(string.length < least) || !(length < vertices_[to].limit(behind_, last_leg(a))))
       return Outcome::longer;
     const std::size_t leg = blocked(a, to);
     if (leg < a.legs.size()) {
@@ -310,8 +313,7 @@ void Solver::accept(const Attempt& a, Index to) {
     hints_[chain] = a.string.at[i];
   }
   vertices_[to].remember(chain);
-  take(to, {sources_[a.source].offset + a.string.length, chain,
-            last_leg(a)});
+  take(to, {sources_[a.source].offset + a.string.length, chain, last_leg(a)});
 }
 
 std::size_t Solver::bytes() const {

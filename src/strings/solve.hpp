@@ -72,6 +72,7 @@ class Solver {
     std::vector<Index> places;
     std::vector<Leg> legs;
     Index source = 0;
+    bool touched = false;  // something was put in
   };
   enum class Outcome { free, longer, stuck };
   struct Offer {
@@ -114,7 +115,7 @@ class Solver {
   std::unordered_map<Index, Place> corners_;
   Puller puller_;
   Attempt base_, attempt_, other_;
-  Index from_ = none;  // the vertex that offers
+  Index from_ = none;                              // the vertex that offers
   std::span<const std::pair<Index, Index>> rows_;  // there
   bool prepared_ = false;
   double behind_ = .5;
