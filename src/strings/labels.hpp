@@ -19,17 +19,26 @@ struct Label {
   Point last = {0, 0, 0};  ///< its last leg's direction, unit: the field's gradient
 };
 
-/// A vertex keeps the two shortest strings: where the second is not much longer and comes from
-/// another side, it may be the shortest of a neighbour.
+/// A vertex keeps the shortest strings that come to it from different sides: one that is not much
+/// longer than the shortest may be the shortest of a neighbour.
 struct VertexLabels {
+  static constexpr std::size_t most = 2;
   static constexpr std::size_t remembered = 6;
-  Label best, second;
+  std::array<Label, most> labels;       ///< by their distance
   std::array<Index, remembered> tried;  ///< chains of late
   Index next = 0;
 
   VertexLabels() { tried.fill(none); }
+  [[nodiscard]] const Label& best() const { return labels[0]; }
+  /// The label, if it is still one of the vertex.
+  [[nodiscard]] const Label* find(Index chain, double distance) const {
+    for (const Label& l : labels)
+      if (l.chain == chain && l.distance == distance) return &l;
+    return nullptr;
+  }
   [[nodiscard]] bool knows(Index chain) const {
-    if (best.chain == chain || second.chain == chain) return true;
+    for (const Label& l : labels)
+      if (l.chain == chain) return true;
     for (const Index t : tried)
       if (t == chain) return true;
     return false;
@@ -38,35 +47,38 @@ struct VertexLabels {
     tried[next] = chain;
     next = (next + 1) % remembered;
   }
-  /// Strings as long as this are of no use, whatever direction they come from.
-  [[nodiscard]] double limit(double behind) const {
-    return std::min(best.distance + behind, second.distance);
-  }
-  /// The same for one from this direction.
+  /// Strings as long as this, that end in this direction, are of no use.
   [[nodiscard]] double limit(double behind, const Point& last) const {
-    return differ(best.last, last) ? limit(behind) : best.distance;
+    double limit = std::min(best().distance + behind, labels[most - 1].distance);
+    for (const Label& l : labels)
+      if (alike(l.last, last)) limit = std::min(limit, l.distance);
+    return limit;
   }
   /// Takes a string; false if it is of no use.
   bool take(const Label& label, double behind) {
-    if (label.distance < best.distance) {
-      if (best.chain != label.chain && best.distance < label.distance + behind &&
-          differ(best.last, label.last))
-        second = best;
-      else if (second.chain == label.chain || !differ(second.last, label.last) ||
-               !(second.distance < label.distance + behind))
-        second = {};
-      best = label;
-      return true;
+    if (!(label.distance < limit(behind, label.last))) return false;
+    // Those that are longer and alike, or too long now, make room.
+    std::array<Label, most> kept;
+    std::size_t n = 0;
+    bool placed = false;
+    const double longest = std::min(label.distance, best().distance) + behind;
+    for (const Label& l : labels) {
+      if (!placed && !(l.distance < label.distance)) {
+        placed = true;
+        if (n < most) kept[n++] = label;
+      }
+      const bool after = placed && (l.chain == label.chain || alike(l.last, label.last));
+      if (n < most && l.chain != none && !after && l.distance < longest) kept[n++] = l;
     }
-    if (label.chain == best.chain || !(label.distance < limit(behind, label.last))) return false;
-    second = label;
+    if (!placed && n < most) kept[n] = label;
+    labels = kept;
     return true;
   }
 
  private:
-  static bool differ(const Point& a, const Point& b) {
-    constexpr double alike = .99;  // cosine
-    return dot(a, b) < alike;
+  static bool alike(const Point& a, const Point& b) {
+    constexpr double cosine = .99;
+    return dot(a, b) >= cosine;
   }
 };
 

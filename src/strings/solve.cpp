@@ -29,14 +29,13 @@ bool Solver::solve(std::span<const Source> sources, const Limits& limits) {
     const Offer next = queue_.back();
     queue_.pop_back();
     if (next.distance > limits.radius) break;
-    const VertexLabels& at = vertices_[next.vertex];
-    const bool best = at.best.chain == next.chain && at.best.distance == next.distance;
-    if (!best && !(at.second.chain == next.chain && at.second.distance == next.distance)) continue;
+    const Label* found = vertices_[next.vertex].find(next.chain, next.distance);
+    if (found == nullptr) continue;
     if (counts_.expansions >= limits.expansions) return false;
     if (limits.progress && counts_.expansions % 4096 == 0)
       limits.progress(counts_.expansions, next.distance);
     ++counts_.expansions;
-    expand(next.vertex, best ? Label(at.best) : Label(at.second));
+    expand(next.vertex, Label(*found));
   }
   return true;
 }
@@ -97,20 +96,20 @@ void Solver::prepare(Index vertex, const Label& label) {
 
 void Solver::offer(Index from, const Label& label, Index to) {
   VertexLabels& at = vertices_[to];
-  const double direct = label.distance + norm(space_->point(to) - space_->point(from));
-  if (!at.knows(label.chain)) {
-    // The length of a chain is convex in where it ends.
-    const double least = label.distance + dot(label.last, space_->point(to) - space_->point(from));
-    if (least >= at.limit(behind_, label.last)) return;
-    const Outcome outcome = attempt(from, label, to, none);
-    // Where it was blocked it may come past on another side from another vertex.
-    if (outcome != Outcome::stuck && !attempt_.touched) at.remember(label.chain);
-  }
-  // Where it is stuck, or tetrahedra only touch, on past a bend at the vertex itself.
-  const auto too_long = [&] { return direct < at.best.distance * (1 - 1e-9); };
-  for (const auto& [vertex, row] : rows_)
-    if (too_long()) attempt(from, label, to, row);
-  if (too_long()) offer_corner(from, label, to, direct);
+  if (at.knows(label.chain)) return;
+  // The length of a chain is convex in where it ends.
+  const Point way = space_->point(to) - space_->point(from);
+  if (label.distance + dot(label.last, way) >= at.limit(behind_, label.last)) return;
+  const Outcome outcome = attempt(from, label, to, none);
+  // Where it was blocked it may come past on another side from another vertex.
+  if (outcome != Outcome::stuck && !attempt_.touched) at.remember(label.chain);
+  constexpr double rounding = 1e-9;
+  const double direct = label.distance + norm(way),
+               found = sources_[attempt_.source].offset + attempt_.string.length;
+  if (outcome != Outcome::stuck && found < direct * (1 + rounding)) return;
+  // On past a bend at the vertex itself, or from there along the edge.
+  for (const auto& [vertex, row] : rows_) attempt(from, label, to, row);
+  if (direct < at.best().distance * (1 - rounding)) offer_corner(from, label, to, direct);
 }
 
 // A vertex' string, pulled to another one; with one more place at the vertex, if it says so.
@@ -130,7 +129,7 @@ Solver::Outcome Solver::attempt(Index from, const Label& label, Index to, Index 
                 label.distance, label.chain);
     for (auto q : base_.places) std::printf(" %u", q);
     std::printf(" through %d -> outcome %d length %.6f best %.6f:", int(through), int(outcome),
-                attempt_.string.length, vertices_[to].best.distance);
+                attempt_.string.length, vertices_[to].best().distance);
     for (std::size_t i = 0; i < attempt_.places.size(); ++i)
       std::printf(" %u[%.3f %.3f %.3f]", attempt_.places[i], attempt_.string.points[i].x,
                   attempt_.string.points[i].y, attempt_.string.points[i].z);
@@ -314,6 +313,17 @@ void Solver::accept(const Attempt& a, Index to) {
   }
   vertices_[to].remember(chain);
   take(to, {sources_[a.source].offset + a.string.length, chain, last_leg(a)});
+}
+
+std::vector<Point> Solver::path(Index vertex) {
+  const Label label = vertices_[vertex].best();
+  if (label.chain == none) return {};
+  prepared_ = false;
+  prepare(vertex, label);
+  std::vector<Point> points;
+  for (std::size_t n = 0; n < base_.places.size() + 2; ++n)
+    points.push_back(base_.string.corner(n));
+  return points;
 }
 
 std::size_t Solver::bytes() const {

@@ -52,12 +52,15 @@ class Solver {
   bool solve(std::span<const Source> sources, const Limits& limits);
 
   /// +inf where nothing leads.
-  [[nodiscard]] double distance(Index vertex) const { return vertices_[vertex].best.distance; }
+  [[nodiscard]] double distance(Index vertex) const { return vertices_[vertex].best().distance; }
   /// The nearest source; none where nothing leads.
   [[nodiscard]] Index source(Index vertex) const {
-    const Index chain = vertices_[vertex].best.chain;
+    const Index chain = vertices_[vertex].best().chain;
     return chain == none ? none : chains_.source(chain);
   }
+  /// The shortest path to a vertex, its bends and both ends, from the source on. Empty where
+  /// nothing leads.
+  [[nodiscard]] std::vector<Point> path(Index vertex);
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] std::size_t bytes() const;
 
