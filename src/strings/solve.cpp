@@ -3,11 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#ifdef TRACE
-#include <cstdio>
-unsigned trace_vertex = ~0u;
-#endif
-
 namespace plexway::strings {
 namespace {
 
@@ -122,20 +117,6 @@ Solver::Outcome Solver::attempt(Index from, const Label& label, Index to, Index 
   if (through != none) append(attempt_, through, space_->point(from));
   Outcome outcome = settle(attempt_, to, infinity);
   if (outcome != Outcome::longer) outcome = without_held(attempt_, to, outcome);
-#ifdef TRACE
-  if (to == trace_vertex) {
-    const Point u = space_->point(from);
-    std::printf("offer from %u (%.3f %.3f %.3f) d %.6f chain %u: base", from, u.x, u.y, u.z,
-                label.distance, label.chain);
-    for (auto q : base_.places) std::printf(" %u", q);
-    std::printf(" through %d -> outcome %d length %.6f best %.6f:", int(through), int(outcome),
-                attempt_.string.length, vertices_[to].best().distance);
-    for (std::size_t i = 0; i < attempt_.places.size(); ++i)
-      std::printf(" %u[%.3f %.3f %.3f]", attempt_.places[i], attempt_.string.points[i].x,
-                  attempt_.string.points[i].y, attempt_.string.points[i].z);
-    std::printf("\n");
-  }
-#endif
   if (outcome == Outcome::free) accept(attempt_, to);
   return outcome;
 }
