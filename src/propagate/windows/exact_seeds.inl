@@ -73,7 +73,8 @@ void ExactWindows<Real>::seed_inside(Order& order, Index f, const std::array<dou
   const TriangleRecord<Real>& t = triangles_[f];
   for (std::size_t e = 0; e < 3; ++e) {
     const auto [x, h, length] = SeenFromEdge<Real>(t, b, e);
-    leave(order, f, e, measured_window(Beam<double>{x, h, 0, length}.mirrored(length), sigma), number);
+    leave(order, f, e, measured_window(Beam<double>{x, h, 0, length}.mirrored(length), sigma),
+          number);
     // The corner at the edge's start; the source in the frame of that edge.
     const double back = std::sqrt(x * x + h * h);
     offer(order, t.corner[e], sigma + back, {static_cast<Index>(3 * f + e), x, h}, number);

@@ -151,7 +151,7 @@ template <class Real>
 template <class Order>
 bool MergedWindows<Real>::fill_holes(Order& order) {
   if (radius_ < unreached<Real> || std::all_of(distance_, distance_ + sheet_.vertex_count,
-                                              [](Real d) { return d < unreached<Real>; }))
+                                               [](Real d) { return d < unreached<Real>; }))
     return false;
   return fill_holes(
       triangles_, own_, [&](Index v) { return distance_[v]; },
