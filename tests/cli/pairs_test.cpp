@@ -286,7 +286,7 @@ TEST_CASE("rows of solids whose speeds jump, and of mixed domains, are those of 
 
 TEST_CASE("a matrix killed twenty times is bit for bit one that was not") {
   const testing::Folder folder;
-  const std::string input = folder.write("square.off", square_off(64));
+  const std::string input = folder.write("square.off", square_off(50));
   const std::string whole = folder.at("whole.npy"), parts = folder.at("parts.npy");
   const auto command = [&](const std::string& out) {
     return std::vector<std::string>{"pairs",  input,     "--sources",   "all",
