@@ -222,10 +222,6 @@ View first_bytes(const OpenedFile& file) {
   for (const auto& [other, first, cure] : others)
     if (extension == other || (!first.empty() && first_bytes(file).starts_with(first)))
       throw InputError(name + ": a " + std::string(other) + " is not read; " + std::string(cure));
-  if (extension == ".pvtu")
-    throw InputError(name +
-                     ": a .pvtu is read in parts, by ranks: mpirun -n 4 plexway-mpi distance " +
-                     name + " --in-parts ...");
   std::vector<View> known;
   for (const Format& format : table)
     for (View list = format.extensions; !list.empty();) {

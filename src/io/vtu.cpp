@@ -44,6 +44,9 @@ class VtuReader {
     if (!root) fail(1, "expected the element VTKFile");
     const std::string_view type = root.attribute("type").value();
     const bool polygons = type == "PolyData";
+    if (type.starts_with('P') && !polygons)
+      fail(root, "a file in parts is read by ranks: mpirun -n 4 plexway-mpi distance " +
+                     std::string(name_) + " --in-parts ...");
     if (type != "UnstructuredGrid" && !polygons)
       fail(root, "the file is of type " + quote(type) + "; read are UnstructuredGrid and PolyData");
     read_encoding(root);
