@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the pictures of docs/gallery.md anew, and the page itself.
+# Makes the pictures of docs/how-to/pictures.md anew, and the page itself.
 #
 #   docs/gallery.sh [BIN] [NAME...]
 #
@@ -34,12 +34,12 @@ unreached | What no path leads to | Two spheres, one source: the other one is gr
 TABLE
 }
 
-page=docs/gallery.md
+page=docs/how-to/pictures.md
 mkdir -p docs/gallery
 {
   echo "# Gallery"
   echo
-  echo "One command each. \`--picture\` draws without a display, by EGL; [CLI.md](CLI.md#pictures) lists"
+  echo "One command each. \`--picture\` draws without a display, by EGL; [the tool](../reference/cli.md#pictures) lists"
   echo "what goes with it. \`docs/gallery.sh\` makes this page and its pictures."
 } > "$page"
 table | while IFS='|' read -r name title text command; do
@@ -56,6 +56,6 @@ table | while IFS='|' read -r name title text command; do
     # shellcheck disable=SC2086
     "$bin"/$(echo "$command" | sed "s| $name\.png| docs/gallery/$name.png|") $quiet > /dev/null < /dev/null
   fi
-  printf '\n## %s\n\n%s\n\n    %s\n\n![%s](gallery/%s.png)\n' \
+  printf '\n## %s\n\n%s\n\n    %s\n\n![%s](../gallery/%s.png)\n' \
     "$title" "$text" "$command" "$title" "$name" >> "$page"
 done
