@@ -30,7 +30,7 @@ poisson | Poisson disks | 700 points, none too near to another along the surface
 cvt | Centroidal Voronoi cells | 120 seeds, each in the middle of its cell. | plexway cvt data/knot.ply --count 120 --view 200,35 --size 640x480 --small --picture cvt.png
 farthest | Farthest points | 30 landmarks; how far is the nearest? | plexway farthest data/torus.obj --count 30 --map cividis --isolines 6 --view 20,40 --size 640x480 --small --picture farthest.png
 flat | Exact where it is known | A flat L: paths bend at its inner corner, and lines of equal distance are arcs around it. Flat things are seen from above. | plexway distance data/ell.obj --source point:1.9,0.1,0 --orthographic --isolines 24 --title length --small --picture flat.png
-unreached | What no path leads to | Two spheres, one source: the other one is grey. | plexway distance data/two_parts.obj --source vertex:0 --small --picture unreached.png
+unreached | What is not reached | Two spheres, one source: the other one is grey. | plexway distance data/two_parts.obj --source vertex:0 --small --picture unreached.png
 TABLE
 }
 
