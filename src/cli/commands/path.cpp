@@ -359,7 +359,7 @@ void add_path_command(CLI::App& tool, Action& action) {
       "  plexway path knot.ply --from vertex:0 --to vertex:99 --out path.obj\n"
       "  plexway path knot.ply --from vertex:0 --to vertex:99 --to point:1,0,0 --astar --json\n"
       "  plexway path knot.ply --from vertex:0 --to vertex:99 --picture path.png\n"
-      "  plexway path organ.off --as solid --from point:0,0,0 --to point:1,1,0 -o path.vtp");
+      "  plexway path organ.off --as solid --from vertex:0 --to vertex:9 -o path.vtp");
   app.callback([command, &action] { action = [command] { run_path(*command); }; });
 }
 
