@@ -1,5 +1,5 @@
 #!/bin/sh
-# Error against mesh size, as a table and a plot: docs/convergence.md and docs/convergence.svg are made
+# Error against mesh size, as a table and a plot: docs/log/convergence.md and docs/log/convergence.svg are made
 # by
 #
 #   bench/convergence.sh BUILD OUT [options of bench convergence]

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Makes the training and the validation set with their exact answers, tunes on the one and judges by
-# the other: everything docs/TUNING.md says. Needs bench_cgal, so CGAL, for the answers.
+# the other: everything docs/log/tuning.md says. Needs bench_cgal, so CGAL, for the answers.
 #
 #   bench/tune.sh BUILD OUT [SCANS]
 #

@@ -93,8 +93,8 @@ if(TARGET plexway_tool)
   install(FILES "${pages}/fish/plexway.fish"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d" COMPONENT tool)
   install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
-      "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/docs/CLI.md"
-      "${PROJECT_SOURCE_DIR}/docs/FORMATS.md"
+      "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/docs/reference/cli.md"
+      "${PROJECT_SOURCE_DIR}/docs/reference/formats.md"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/plexway" COMPONENT tool)
 endif()
 if(TARGET plexway_mpi_tool)

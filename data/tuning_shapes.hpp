@@ -1,7 +1,7 @@
 #pragma once
 
 // The surfaces that `plexway tune` is trained on, and others, of other kinds, that it never sees
-// and by which the outcome is judged. docs/TUNING.md says more.
+// and by which the outcome is judged. docs/log/tuning.md says more.
 
 #include <string_view>
 

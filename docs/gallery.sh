@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the pictures of docs/gallery.md anew, and the page itself.
+# Makes the pictures of docs/how-to/pictures.md anew, and the page itself.
 #
 #   docs/gallery.sh [BIN] [NAME...]
 #
@@ -30,16 +30,16 @@ poisson | Poisson disks | 700 points, none too near to another along the surface
 cvt | Centroidal Voronoi cells | 120 seeds, each in the middle of its cell. | plexway cvt data/knot.ply --count 120 --view 200,35 --size 640x480 --small --picture cvt.png
 farthest | Farthest points | 30 landmarks; how far is the nearest? | plexway farthest data/torus.obj --count 30 --map cividis --isolines 6 --view 20,40 --size 640x480 --small --picture farthest.png
 flat | Exact where it is known | A flat L: paths bend at its inner corner, and lines of equal distance are arcs around it. Flat things are seen from above. | plexway distance data/ell.obj --source point:1.9,0.1,0 --orthographic --isolines 24 --title length --small --picture flat.png
-unreached | What no path leads to | Two spheres, one source: the other one is grey. | plexway distance data/two_parts.obj --source vertex:0 --small --picture unreached.png
+unreached | What is not reached | Two spheres, one source: the other one is grey. | plexway distance data/two_parts.obj --source vertex:0 --small --picture unreached.png
 TABLE
 }
 
-page=docs/gallery.md
+page=docs/how-to/pictures.md
 mkdir -p docs/gallery
 {
   echo "# Gallery"
   echo
-  echo "One command each. \`--picture\` draws without a display, by EGL; [CLI.md](CLI.md#pictures) lists"
+  echo "One command each. \`--picture\` draws without a display, by EGL; [the tool](../reference/cli.md#pictures) lists"
   echo "what goes with it. \`docs/gallery.sh\` makes this page and its pictures."
 } > "$page"
 table | while IFS='|' read -r name title text command; do
@@ -56,6 +56,6 @@ table | while IFS='|' read -r name title text command; do
     # shellcheck disable=SC2086
     "$bin"/$(echo "$command" | sed "s| $name\.png| docs/gallery/$name.png|") $quiet > /dev/null < /dev/null
   fi
-  printf '\n## %s\n\n%s\n\n    %s\n\n![%s](gallery/%s.png)\n' \
+  printf '\n## %s\n\n%s\n\n    %s\n\n![%s](../gallery/%s.png)\n' \
     "$title" "$text" "$command" "$title" "$name" >> "$page"
 done

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The table of docs/RELIABILITY.md, made again:
+# The table of docs/log/reliability.md, made again:
 #   tests/reliability.sh MINUTES [kills of each output [folder of the build [seconds a turn]]]
 # The build must have the tool and the tests. First kills, helpers that fail, damaged files and the
 # packages; then fuzzers in turns until the minutes are up, which begin none that would end later.

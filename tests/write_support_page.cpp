@@ -1,4 +1,4 @@
-// Writes docs/support.md: the target plexway_support_page.
+// Writes docs/reference/support.md: the target plexway_support_page.
 
 #include <fstream>
 

@@ -1,4 +1,4 @@
-"""What each method takes, for the table of docs/python.md: processor time, the lesser of two calls.
+"""What each method takes, for the table of docs/reference/python.md: processor time, the lesser of two calls.
 
     PYTHONPATH=build/python python3 python/bench/methods.py FILE [SOLID]
 

@@ -17,7 +17,7 @@ plexway.Surface(4 vertices, 2 triangles)
 >>> sheet.path(0, 2).length
 5.0
 
-Distances are in the unit of the positions; what no path leads to is at ``inf``.
+Distances are in the unit of the positions; unreachable vertices are at ``inf``.
 """
 
 try:

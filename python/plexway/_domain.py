@@ -42,7 +42,7 @@ def _arguments(
     accuracy: AccuracyLike,
     many: bool = False,
 ) -> Any:
-    """How to solve. Several fields take all threads unless told otherwise, a single one takes one."""
+    """How to solve. Several fields take all threads unless `threads` limits them; one takes one."""
     if threads is not None:
         threads = whole(threads, "threads", 0)
     if accuracy is not None and not isinstance(accuracy, str):
@@ -116,12 +116,12 @@ class Domain:
         return np.dtype(np.float64 if self._native.double else np.float32)
 
     @property
-    def remarks(self) -> Tuple[str, ...]:
+    def notes(self) -> Tuple[str, ...]:
         """What to know of all its distances, a sentence each: where they may be far off and what to
         do, which points count as others. What says that they may be wrong was an `AccuracyWarning`
         when the domain was made."""
-        told: Tuple[str, ...] = self._native.remarks
-        return told
+        found: Tuple[str, ...] = self._native.notes
+        return found
 
     def info(self) -> Dict[str, Any]:
         """What it is made of.
@@ -136,7 +136,7 @@ class Domain:
             also split_polygons and split_cells, cut into triangles and tetrahedra, and passed_over.
         """
         native = self._native
-        told: Dict[str, Any] = {
+        found: Dict[str, Any] = {
             "kind": self.kind,
             "dimension": native.dimension,
             "vertices": native.vertex_count,
@@ -148,21 +148,21 @@ class Domain:
             **native.file_report,
         }
         if native.file:
-            told["file"] = native.file
+            found["file"] = native.file
         positions = self.vertices
         if positions is not None and len(positions):
-            told["bounds"] = (positions.min(axis=0), positions.max(axis=0))
+            found["bounds"] = (positions.min(axis=0), positions.max(axis=0))
         if self.kind == "surface":
-            told["mean_edge"] = native.mean_edge
-            told["triangulation"] = native.triangulation
-            told["refracting_edges"] = native.refracting_edges
+            found["mean_edge"] = native.mean_edge
+            found["triangulation"] = native.triangulation
+            found["refracting_edges"] = native.refracting_edges
         if self.kind in ("surface", "solid"):
-            told["violations"] = native.violations[0]
+            found["violations"] = native.violations[0]
         if native.cloud is not None:
-            told["cloud"] = {
+            found["cloud"] = {
                 k: v for k, v in native.cloud.items() if k not in ("normals", "original")
             }
-        return told
+        return found
 
     def __repr__(self) -> str:
         def counted(count: int, name: str) -> str:
@@ -218,12 +218,12 @@ class Domain:
         -------
         ndarray, shape (n,)
             float32, or float64 from a domain of precision 'double' or a source that needs it
-            (lines and triangles of surfaces). ``inf`` where no path leads.
+            (lines and triangles of surfaces). ``inf`` at vertices that are not reached.
 
         Notes
         -----
         The interpreter is free meanwhile, and Ctrl-C ends the work. Where distances may be wrong by
-        more than the accuracy promises there is an `AccuracyWarning`; `Field.remarks` has all that
+        more than the accuracy promises there is an `AccuracyWarning`; `Field.notes` has all that
         is known.
         """
         if type(source) is int and radius == _INFINITY and threads is None and progress is None:
@@ -267,7 +267,7 @@ class Domain:
         -------
         distance : ndarray, shape (n,)
         label : ndarray of int32, shape (n,)
-            The place of the nearest source in the list; -1 where no path leads.
+            The place of the nearest source in the list; -1 where none is reached.
         """
         arguments = _arguments(threads, executor, radius, visibility, accuracy)
         located_sources = located(self, sources, none_is_well=True)

@@ -299,7 +299,7 @@ def _restored_cloud(recipe: Any, neighbours: Dict[str, Any]) -> Domain:
 
 
 class Simplicial(Domain):
-    """Simplices of one dimension, 1 to 4, with any number of coordinates or by lengths alone: a
+    """Simplices of one dimension, 1 to 4, with any number of coordinates or of intrinsic lengths: a
     robot's states in space and time, for instance.
 
     Parameters

@@ -67,7 +67,7 @@ def read(
     **options
         Of clouds: k, neighbour_radius, max_normal_angle, smooth, denoise, deviations, voxel. Of
         surfaces that are filled: max_volume. Of level sets: voxel, grid, repair. Of all: strict, to
-        refuse what would be left out, guessed or mended, such as a face with a corner twice.
+        refuse what would be left out, guessed or repaired, such as a face with a corner twice.
 
     Returns
     -------
@@ -221,7 +221,7 @@ def distance(
     Returns
     -------
     ndarray of float32 or float64, shape (n,)
-        ``inf`` where no path leads.
+        ``inf`` at vertices that are not reached.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""How much is done, told while it is done."""
+"""How much is done, reported while it is done."""
 
 from __future__ import annotations
 

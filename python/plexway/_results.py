@@ -118,7 +118,7 @@ class Disks:
     points : Points
         In the order in which they were thrown.
     radius : float
-        What was asked for, or found for the count.
+        What was requested, or found for the count.
     maximal : bool
         No room is left for another.
     """
@@ -226,12 +226,12 @@ class Field:
         return array
 
     @property
-    def remarks(self) -> Tuple[str, ...]:
+    def notes(self) -> Tuple[str, ...]:
         """What to know of its distances, a sentence each: where they may be far off and what to do,
         which vertices are not reached and why; those of the domain first. What says that they may be
         wrong was an `AccuracyWarning` when the field was made, or the domain."""
-        told: Tuple[str, ...] = self._native.remarks
-        return told
+        found: Tuple[str, ...] = self._native.notes
+        return found
 
     def path(self, start: Place, *, margin: Optional[float] = None) -> Path:
         """The shortest way from `start` back to the nearest source.
@@ -275,7 +275,7 @@ class Field:
         Returns
         -------
         ndarray of float64, shape (m, 3)
-            Of length 1; 0 where no path leads, or the source is there.
+            Of length 1; 0 where it is not reached, or the source is there.
         """
         directions: Array = self._native.gradient()
         return directions

@@ -140,7 +140,7 @@ class WholeSimplex(Source):
 @dataclass(frozen=True)
 class Boundary(Source):
     """The whole boundary: of a surface its rim, of a solid its faces (under a metric, or by
-    lengths alone, their vertices), of a wireframe its loose ends.
+    intrinsic lengths, their vertices), of a wireframe its loose ends.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What is told though nothing failed."""
+"""Warnings: nothing failed, but a result may be inaccurate or incomplete."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from weakref import WeakKeyDictionary
 
 class AccuracyWarning(RuntimeWarning):
     """Distances may be wrong by more than their accuracy promises; the text says where, and what to
-    do. `Domain.remarks` and `Field.remarks` have it as well."""
+    do. `Domain.notes` and `Field.notes` have it as well."""
 
 
 AccuracyWarning.__module__ = "plexway"

@@ -274,7 +274,7 @@ void bind_domain(py::module_& module) {
                                told["passed_over"] = passed_over;
                                return told;
                              })
-      .def_property_readonly("remarks", [](const Domain& d) { return texts_of(told_of(d)); })
+      .def_property_readonly("notes", [](const Domain& d) { return texts_of(told_of(d)); })
       .def_property_readonly("doubts", [](const Domain& d) { return doubts_of(told_of(d)); })
       .def_property_readonly(
           "refracts",

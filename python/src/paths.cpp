@@ -111,7 +111,7 @@ py::tuple isosurfaces(const Domain& domain, const py::object& distance, const py
 void bind_paths(py::module_& module) {
   py::class_<Field, std::shared_ptr<Field>>(module, "Field")
       .def_property_readonly("distance", &distance)
-      .def_property_readonly("remarks", [](const Field& f) { return texts_of(remarks(f)); })
+      .def_property_readonly("notes", [](const Field& f) { return texts_of(remarks(f)); })
       .def_property_readonly("doubts", [](const Field& f) { return doubts_of(f.told); })
       .def_property_readonly("bytes", [](const Field& f) { return f.any.bytes(); })
       .def("label", [](const Field& f) { return owned(f.any.field().file_label()); })

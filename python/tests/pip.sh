@@ -1,5 +1,5 @@
 #!/bin/sh
-# `pip install .` as docs/python.md has it, without a network, in an environment of its own; then what
+# `pip install .` as docs/reference/python.md has it, without a network, in an environment of its own; then what
 # README.md says, from a folder that knows nothing of the clone:
 #   python/tests/pip.sh PYTHON FOLDER [BUILD]
 # FOLDER is made anew. With BUILD, in which the project is built, the library is not built a second

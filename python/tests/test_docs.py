@@ -1,4 +1,4 @@
-"""Every docstring's examples, every example of docs/python.md, and a docstring on everything."""
+"""Every docstring's examples, every example of docs/reference/python.md, and a docstring on everything."""
 
 import doctest
 import inspect
@@ -18,7 +18,7 @@ def test_docstrings(module):
     assert doctest.testmod(module).failed == 0
 
 
-@pytest.mark.parametrize("page", ["docs/python.md", "docs/python-coming-from.md"])
+@pytest.mark.parametrize("page", ["docs/reference/python.md", "docs/coming-from.md"])
 def test_pages(page):
     file = SOURCE / page
     ran = doctest.testfile(str(file), module_relative=False)

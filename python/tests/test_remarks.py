@@ -54,8 +54,8 @@ def test_a_doubtful_domain_warns_once_at_the_line_that_makes_it():
     text = str(told[0].message)
     assert "join parts that have no triangles between them" in text
     assert "normals=" in text and "--" not in text
-    assert cloud.remarks == (text,)
-    assert cloud.field(0, radius=5).remarks[0] == text
+    assert cloud.notes == (text,)
+    assert cloud.field(0, radius=5).notes[0] == text
     # So does the one-liner, which makes one.
     told = warned(lambda: px.distance(squares(), None, 0, radius=5))
     assert len(told) == 1 and told[0].filename == __file__
@@ -75,7 +75,7 @@ def test_every_row_of_many_is_looked_at():
 def test_a_doubtful_field_warns_at_the_line_that_solves_it():
     V, F = strip(60_000)
     single = px.Surface(V, F, triangulation="input")
-    assert single.remarks == ()
+    assert single.notes == ()
     asked = [
         lambda: single.distance(0),
         lambda: single.distance(0, threads=1),
@@ -90,7 +90,7 @@ def test_a_doubtful_field_warns_at_the_line_that_solves_it():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", px.AccuracyWarning)
         field = single.field(0)
-    assert any("use precision='double'" in text for text in field.remarks)
+    assert any("use precision='double'" in text for text in field.notes)
     assert warned(lambda: field.at([[3.0, 0, 0]])) == []  # once a field
     double = px.Surface(V, F, triangulation="input", precision="double")
     assert warned(lambda: double.distance(0)) == []
@@ -101,10 +101,10 @@ def test_what_is_not_reached_is_told_and_no_warning():
     two = px.Surface(np.concatenate([V, V + [3, 0, 0]]), np.concatenate([F, F + len(V)]))
     assert warned(lambda: two.field(0)) == []
     field = two.field(0)
-    assert field.remarks == ("25 vertices not reached (inf): the surface has 2 components",)
-    assert two.field([0, 30]).remarks == ()
+    assert field.notes == ("25 vertices not reached (inf): the surface has 2 components",)
+    assert two.field([0, 30]).notes == ()
     near = two.field(0, radius=0.3)
-    assert "radius= ends the search early" in near.remarks[0]
+    assert "radius= ends the search early" in near.notes[0]
     assert warned(lambda: two.distance(0, radius=0.3)) == []
 
 
@@ -115,7 +115,7 @@ def test_lengths_and_speeds_that_are_not_taken_as_given_are_told():
         sheet[0] = px.Surface(F=[[0, 1, 2], [0, 2, 3]], lengths=[[4, 3, 50], [5, 4, 3]])
 
     told = warned(made)
-    assert sheet[0].remarks == (str(told[0].message),)
+    assert sheet[0].notes == (str(told[0].message),)
     V, T = meshes.kuhn(4, 3)
     speeds = px.SimplexSpeeds(np.linspace(1, 2, len(T)))
     told = warned(lambda: px.Solid(V, T, metric=speeds))
@@ -129,10 +129,10 @@ def test_good_distances_are_not_warned_of():
         surface = px.Surface(V, F)
         surface.distance(0)
         surface.distances([0, 1, 2])
-        assert surface.remarks == surface.field(0).remarks == ()
+        assert surface.notes == surface.field(0).notes == ()
         cloud = px.Cloud(V)
         cloud.distance(0)
-        assert cloud.remarks == cloud.field(0).remarks == ()
+        assert cloud.notes == cloud.field(0).notes == ()
 
 
 def test_points_that_are_dropped_keep_their_number(tmp_path):
@@ -157,7 +157,7 @@ DATA ascii
     except px.NotBuilt:
         pytest.skip("this build has no PCL")
     assert cloud.vertex_count == len(V)
-    assert any("`original` has their numbers" in text for text in cloud.remarks)
+    assert any("`original` has their numbers" in text for text in cloud.notes)
     assert cloud.original[4] == 4 and cloud.original[5] == 6
     assert px.Cloud(V).original is None
 

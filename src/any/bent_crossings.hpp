@@ -24,8 +24,8 @@ struct BentCrossings {
 
 /// Those of all solids with such edges that share faces with a solid of another speed, or faces or
 /// edges with a surface that measures them otherwise. A way over such a hinge and around such an
-/// edge is not always the shortest (docs/methods/mixed.md). None in a domain that is not mixed.
-/// Cost: a look at each hinge.
+/// edge is not always the shortest (docs/contributing/methods/mixed.md). None in a domain that is
+/// not mixed. Cost: a look at each hinge.
 [[nodiscard]] BentCrossings bent_crossings(const AnyDomain& domain);
 
 }  // namespace plexway

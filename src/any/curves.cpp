@@ -25,7 +25,7 @@ std::vector<PointSource> join(const Complex& complex, const Positions& positions
     field.solve(Serial{}, points[n]);
     const Path path = field.trace(points[n - 1]);
     if (path.points.empty())
-      throw InputError("no path leads from point " + std::to_string(n - 1) + " to the next");
+      throw InputError("there is no path from point " + std::to_string(n - 1) + " to the next");
     for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
       const PathPoint& at = path.points[i];
       curve.push_back({.simplex = at.simplex, .barycentric = at.barycentric});

@@ -111,7 +111,7 @@ std::string apart_sentence(const AnyShape& domain, std::span<const std::size_t> 
       std::find_if(from.begin(), from.end(), [&](std::size_t v) { return !used[v]; });
   if (apart == from.end()) return "";
   std::string text = "vertex " + std::to_string(*apart) + " is in none of the " +
-                     std::string(domain.simplex_name()) + ", so no path leads from it";
+                     std::string(domain.simplex_name()) + ", so no other is reached from it";
   const auto at = domain.positions();
   if (at.empty()) return text;
   double least = std::numeric_limits<double>::infinity();

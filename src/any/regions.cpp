@@ -12,7 +12,7 @@
 namespace plexway {
 std::vector<std::int64_t> AnyShape::regions() const {
   support(Purpose::regions, kind()).require();
-  if (file().empty()) throw UsageError("regions are told by a file, and this shape has none");
+  if (file().empty()) throw UsageError("regions come from a file, and this shape has none");
   const std::string name = file().string();
   const auto foreign = [&](std::size_t cells) {
     return UsageError(name + " has regions of " + counted(cells, "cells") + ", which are not the " +

@@ -76,7 +76,7 @@ std::vector<std::string> solid_warnings(const SolidSummary& summary, const Solid
        " where separate parts of the solid touch in one point only");
   if (summary.components > 1) warnings.push_back(components_warning(summary.components));
   warn(summary.unreferenced_vertices, "unreferenced vertices",
-       " in no tetrahedron: no path leads there, so they get inf");
+       " in no tetrahedron, so they get inf");
   warn(survey.coincident_vertices, "vertices",
        " exactly where another one lies: if the two sides of a cut have their own vertices, paths "
        "go round it");

@@ -70,8 +70,7 @@ std::vector<std::string> surface_warnings(const SurfaceSummary& summary,
   warn(summary.pinched_vertices, "pinched vertices",
        " where separate parts of the surface touch in one point only");
   if (summary.components > 1) warnings.push_back(components_warning(summary.components));
-  warn(summary.unreferenced_vertices, "unreferenced vertices",
-       " in no triangle: no path leads there, so they get inf");
+  warn(summary.unreferenced_vertices, "unreferenced vertices", " in no triangle, so they get inf");
   warn(survey.coincident_vertices, "vertices",
        " exactly where another one lies: if the two sides of a seam have their own vertices, the "
        "surface is cut along it and paths go round");

@@ -1,6 +1,7 @@
 #include "cli/app.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <stdexcept>
@@ -17,6 +18,7 @@
 #include "cli/exit_codes.hpp"
 #include "cli/report/console.hpp"
 #include "cli/report/help_pages.hpp"
+#include "cli/report/short_help.hpp"
 #include "io/did_you_mean.hpp"
 #include "io/file_bytes.hpp"
 
@@ -124,9 +126,10 @@ void parse_and_run(int argc, const char* const* argv, const Among* among) {
 
   try {
     tool.parse(argc, argv);
-  } catch (const CLI::Success&) {  // help was asked for
+  } catch (const CLI::Success&) {  // help was requested
     if (among != nullptr && !among->ranks.leads()) return;
-    write_output(tool.help());
+    const bool in_short = std::find(argv, argv + argc, std::string_view("-h")) != argv + argc;
+    write_output(in_short ? short_help(innermost(tool)) : tool.help());
     flush_output();
     return;
   } catch (const CLI::ParseError& error) {

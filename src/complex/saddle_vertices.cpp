@@ -81,7 +81,8 @@ Neighbourhoods look_around(std::span<const TriangleRecord<Real>> triangles,
   return around;
 }
 
-// May paths bend at this inner vertex? See docs/methods/surfaces.md, "Which vertices are saddles".
+// May paths bend at this inner vertex? See docs/contributing/methods/surfaces.md, "Which vertices
+// are saddles".
 bool is_inner_saddle(double excess, const SaddleSupport& n, double least,
                      const SaddleThresholds& saddles) {
   if (!(excess > 0)) return false;

@@ -44,7 +44,7 @@ template <class Real>
 class CrackSources {
  public:
   /// So near to a crack, in mean edges, a source cannot be told from one on it: found by random
-  /// plans, of which some are wrong up to 0.01 (docs/EXPERIMENTS.md).
+  /// plans, of which some are wrong up to 0.01 (docs/log/experiments.md).
   static constexpr double near = 0.02;
 
   CrackSources(const TetMesh<Real>& mesh, std::span<const PointSource> sources)

@@ -1,4 +1,4 @@
-// Edges as plain text, one a line. docs/FORMATS.md has the rules.
+// Edges as plain text, one a line. docs/reference/formats.md has the rules.
 
 #include <algorithm>
 #include <cstdint>

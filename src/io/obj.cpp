@@ -1,4 +1,5 @@
-// Wavefront OBJ: its vertices, faces and lines. Why no library reads it for us: docs/FORMATS.md.
+// Wavefront OBJ: its vertices, faces and lines. Why no library reads it for us:
+// docs/reference/formats.md.
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-// Points as text, one a line. docs/FORMATS.md has the rules.
+// Points as text, one a line. docs/reference/formats.md has the rules.
 
 #include <algorithm>
 #include <charconv>

@@ -380,7 +380,7 @@ TEST_CASE("any domain: regions of a mixed domain with speeds of their own") {
     ++count;
   }
   CAPTURE(worst, mean / static_cast<double>(count));
-  // As docs/methods/mixed.md has it for domains whose pieces are of different speed.
+  // As docs/contributing/methods/mixed.md has it for domains whose pieces are of different speed.
   CHECK(worst < 4e-3);
   CHECK(mean / static_cast<double>(count) < 2e-4);
   // From a point of a triangle, by the shape's number of it.

@@ -181,7 +181,7 @@ TEST_CASE("lines, boundaries, regions and tensors of any shape") {
     });
     check(kind, Purpose::regions, [&] {
       if (!support(Purpose::regions, is)) return (void)kind.shape.regions();
-      CHECK_THROWS_WITH(kind.shape.regions(), Contains("told by a file"));
+      CHECK_THROWS_WITH(kind.shape.regions(), Contains("come from a file"));
       const auto file = folder.write("two.vtk", two_regions(is));
       const AnyShape shape = AnyShape::read(file, {.as = is});
       CHECK(shape.regions() == std::vector<std::int64_t>{4, 7});

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include "cli/tool.hpp"
@@ -58,6 +59,28 @@ TEST_CASE("the manual page and the completions know every command and option") {
   }
   CHECK(options > 100);
   CHECK(run_tool({"--help-page", "teapot"}).code == 2);
+}
+
+TEST_CASE("-h is a screen: 25 lines of 80 columns with three examples") {
+  const std::string tool = run_tool({"--help"}).out;
+  auto commands = matches(tool.substr(tool.find("Subcommands:")), "\\n  ([a-z]+) ");
+  commands.erase("plexway");  // an example
+  REQUIRE(commands.size() >= 11);
+  commands.insert("");
+  for (const std::string& command : commands) {
+    INFO(command);
+    const auto run = command.empty() ? run_tool({"-h"}) : run_tool({command, "-h"});
+    CHECK(run.code == 0);
+    std::istringstream lines(run.out);
+    std::size_t count = 0, examples = 0;
+    for (std::string line; std::getline(lines, line); ++count) {
+      INFO(line);
+      CHECK(line.size() <= 80);
+      examples += line.starts_with("  plexway ");
+    }
+    CHECK(count <= 25);
+    CHECK(examples == 3);
+  }
 }
 
 TEST_CASE("without its program TetGen is not there, and that is no fault of the surface") {

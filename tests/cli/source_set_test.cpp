@@ -176,7 +176,7 @@ TEST_CASE("sources that are none or not there are told by name") {
       {{square, "--source", "boundary", "--precision", "float", "--accuracy", "fast"}, 2, "double"},
       {{sample("knot.ply"), "--source", "boundary"}, 3, "has none"},
       {{sample("elbow.mesh"), "--source", "triangle:0"}, 2, "surfaces and wireframes"},
-      {{sample("two_parts.obj"), "--source", "segment:-9,0,0,9,0,0"}, 3, "no path leads"},
+      {{sample("two_parts.obj"), "--source", "segment:-9,0,0,9,0,0"}, 3, "there is no path"},
   };
   for (const auto& [arguments, code, why] : cases) {
     std::vector<std::string> all = {"distance"};

@@ -1,5 +1,5 @@
 // What no path leads to, in every format that results are written in, read back from the bytes as
-// docs/FORMATS.md says.
+// docs/reference/formats.md says.
 
 #include <array>
 #include <bit>

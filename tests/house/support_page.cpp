@@ -115,11 +115,11 @@ class Page {
     tables += parts_text();
     tables += file_table();
     tables += build_table();
-    return "# What goes together\n\n"
+    return "# What is supported\n\n"
            "Made from `support.hpp`, `domain/support.hpp` and `any/support.hpp` in "
            "`include/plexway` by "
            "`ninja plexway_support_page`;\n"
-           "a test of the house compares them. What does not go together is refused with the "
+           "a test of the house compares them. What is not supported is refused with the "
            "sentence of the number, by the "
            "compiler where types\n"
            "alone tell. `float` and `double`: only domains of that precision.\n" +
@@ -204,7 +204,7 @@ class Page {
   }
 
   std::string metric_table() {
-    std::string text = "\n## Metric\n\nSurfaces that refract, and solids by lengths alone.\n";
+    std::string text = "\n## Metric\n\nSurfaces that refract, and solids of intrinsic lengths.\n";
     text += head(" domain ", executors, "`");
     const std::array<Named<MetricKind>, 2> metrics = {
         {{"surface, refracting", MetricKind::refracting},
@@ -250,7 +250,7 @@ class Page {
         {measured[0], measured[3], measured[4], measured[5]}};
     for (auto& m : alone) m.value.positions = false;
     std::string text =
-        "\n## By lengths alone\n\nWithout positions in space; what is not in this table is as "
+        "\n## Of intrinsic lengths\n\nWithout positions in space; what is not in this table is as "
         "above.\n" +
         head(" ", alone);
     for (const auto& purpose : purposes) {
@@ -278,7 +278,7 @@ class Page {
       if (found) kept.append(kept.empty() ? "" : "; ").append(purpose.name);
       if (found.refusal() == Refusal::in_parts_whole) sentence = verdict(found);
     }
-    return "\n## In parts over processes\n\nA surface that no process has as a whole goes with: " +
+    return "\n## In parts over processes\n\nA surface that no process has as a whole supports: " +
            kept + ". All else of the tables above: " + sentence + ".\n";
   }
 

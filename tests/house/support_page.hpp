@@ -4,7 +4,7 @@
 
 namespace house {
 
-/// docs/support.md, all of it, made from the table in support.hpp.
+/// docs/reference/support.md, all of it, made from the table in support.hpp.
 std::string support_page();
 
 }  // namespace house

@@ -80,6 +80,8 @@ TEST_CASE("the top level is the one agreed on") {
                                         ".ci",
                                         ".git",
                                         "CONTRIBUTING.md",
+                                        "SECURITY.md",
+                                        "CITATION.cff",
                                         ".clang-format",
                                         ".clang-tidy",
                                         ".gitignore",

@@ -15,12 +15,12 @@ struct Step {
   std::string file, function;
 };
 
-// The tables of docs/DESIGN.md whose second column is `through`.
+// The tables of docs/contributing/architecture.md whose second column is `through`.
 std::vector<std::vector<Step>> walks() {
   std::vector<std::vector<Step>> found;
   const std::regex row(R"(\| `([a-z_/]+\.[a-z]+)` \| `([A-Za-z_]+)` \|.*)");
   bool inside = false;
-  for (const std::string& line : house::lines_of("docs/DESIGN.md")) {
+  for (const std::string& line : house::lines_of("docs/contributing/architecture.md")) {
     if (line.rfind("| file | through |", 0) == 0) {
       found.emplace_back();
       inside = true;

@@ -1,4 +1,4 @@
-// The table of formats: docs/FORMATS.md, first bytes, and files of other programs.
+// The table of formats: docs/reference/formats.md, first bytes, and files of other programs.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -23,7 +23,7 @@ using Catch::Contains;
 
 namespace {
 
-// What stands between the marks of docs/FORMATS.md.
+// What stands between the marks of docs/reference/formats.md.
 std::string page() {
   std::string text = "| extension | format | holds | read | passed over |\n|---|---|---|---|---|\n";
   for (const io::Format& format : io::formats()) {
@@ -54,8 +54,8 @@ const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 }  // namespace
 
-TEST_CASE("docs/FORMATS.md has the table of formats") {
-  const std::string text = bytes_of(std::string(PLEXWAY_SOURCE_DIR) + "/docs/FORMATS.md");
+TEST_CASE("docs/reference/formats.md has the table of formats") {
+  const std::string text = bytes_of(std::string(PLEXWAY_SOURCE_DIR) + "/docs/reference/formats.md");
   const std::string from = "<!-- formats -->\n", to = "<!-- /formats -->";
   const std::size_t begin = text.find(from);
   REQUIRE(begin != text.npos);

@@ -89,7 +89,7 @@ void give_reason(const Run& run, const Run& diagnosis, const std::string& facet)
     if (a >= 0) {
       throw InputError(
           "vertices " + std::to_string(a) + " and " + std::to_string(b) +
-          " are too close to be told apart (1e-8 of the solid's size), and the boundary "
+          " are too close to be distinguished (1e-8 of the solid's size), and the boundary "
           "is not sound if they are one: merge them first");
     }
   }

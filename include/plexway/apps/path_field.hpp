@@ -123,7 +123,7 @@ class PathField<Domain<Real>> {
   /// lengths alone they are the lengths of paths.
   ///
   /// Across an edge `neighbours` and `star` are continuous where the labels on both sides are all
-  /// that is asked; docs/apps/read_out.md has what jumps. Throws UsageError for a
+  /// that is asked; docs/how-to/read-out.md has what jumps. Throws UsageError for a
   /// point that is not in the domain, before a solve, and without such labels.
   /// Any number of threads may ask at once. Cost: on surfaces 1, 1, 4 and at most 31 labels looked
   /// at, in solids 1, 1 and 5.

@@ -43,7 +43,7 @@ enum class Retriangulation {
 
 /// What pays, by measured shape: flips if more than 4 % of the inner edges are not Delaunay,
 /// refinement as well if more than one triangle in ten has an angle below 5 degrees
-/// (docs/methods/surfaces.md measures it).
+/// (docs/contributing/methods/surfaces.md measures it).
 [[nodiscard]] Retriangulation what_pays(const TriangulationShape& shape);
 
 /// What was done to get there.

@@ -38,7 +38,8 @@ struct SmoothOptions {
 /// Edges get rounder, by about a spacing, but only in clouds that are noisy.
 ///
 /// It takes detail away as well, if that is no larger than two or three spacings, and may close
-/// thin parts: so it is for clouds whose noise costs more. On distances: docs/methods/clouds.md.
+/// thin parts: so it is for clouds whose noise costs more. On distances:
+/// docs/contributing/methods/clouds.md.
 ///
 /// Neighbours are those of the points as they came, and may serve afterwards, too; one's own across
 /// a gap must not be among them, or the gap closes. Points with fewer than 8 points around stay.

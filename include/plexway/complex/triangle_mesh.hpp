@@ -58,7 +58,7 @@ struct SaddleThresholds {
   /// than this share of what it would be if all had one sign.
   double agreement;
 
-  /// docs/TUNING.md says how they were found.
+  /// docs/log/tuning.md says how they were found.
   static SaddleThresholds standard();
 };
 

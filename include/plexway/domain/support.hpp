@@ -15,7 +15,7 @@ namespace plexway {
     "the executor GL takes surfaces, solids, wireframes and clouds: use the executor Serial")      \
   X(gl_double, "the executor GL computes in single precision: make the domain of float")           \
   X(gl_lengths,                                                                                    \
-    "the executor GL needs coordinates of a solid, not lengths alone: use the executor Serial")    \
+    "the executor GL needs coordinates of a solid, not only lengths: use the executor Serial")     \
   X(gl_refraction,                                                                                 \
     "the executor GL does not refract paths: use the executor Serial, or build the surface with "  \
     "one length an edge")                                                                          \
@@ -45,7 +45,7 @@ namespace plexway {
   X(directions_lengths,                                                                            \
     "directions in tetrahedra need their coordinates: build the solid with them, or trace paths")  \
   X(directions_refraction,                                                                         \
-    "directions are not told where paths are refracted: build the surface with one length an "     \
+    "directions are not known where paths are refracted: build the surface with one length an "    \
     "edge, "                                                                                       \
     "or trace paths")                                                                              \
   X(simplex_labels_gl,                                                                             \
@@ -102,7 +102,7 @@ namespace plexway {
     "only cells on a surface have a dual triangulation: take the cells of other domains as they "  \
     "are")                                                                                         \
   X(error_classes_domain,                                                                          \
-    "errors are told apart by place and shape on surfaces and in solids: elsewhere take their "    \
+    "errors are split by place and shape on surfaces and in solids: elsewhere take their "         \
     "mean")                                                                                        \
   X(rows_gl,                                                                                       \
     "rows are solved one a thread, and what is near is looked for by threads: use the executor "   \
@@ -140,19 +140,20 @@ namespace plexway {
   X(pieces_domain,                                                                                 \
     "a mixed domain is made of surfaces, solids and wireframes: make others one of these")         \
   X(pieces_lengths,                                                                                \
-    "a solid in a mixed domain needs coordinates, not lengths alone: build the solid with them")   \
+    "a solid in a mixed domain needs coordinates, not only lengths: build the solid with them")    \
   X(sides_solid,                                                                                   \
     "tetrahedra keep no lengths of their own for an edge that they share: take Sides::mean, or a " \
     "mixed domain of a solid for each speed, as AnyShape::measure does")                           \
   X(positions, "the vertices have no positions in space: give them, or name vertices by number")   \
   X(drawn_lengths,                                                                                 \
-    "a domain by lengths alone can be solved, but has no directions and cannot be drawn: give "    \
+    "a domain of intrinsic lengths can be solved, but has no directions and cannot be drawn: "     \
+    "give "                                                                                        \
     "its "                                                                                         \
     "vertices positions in space, or take its distances as .csv or .npy")                          \
   X(pieces_positions,                                                                              \
     "files are joined where their vertices lie in space: give the vertices positions")             \
   X(metrics_lengths,                                                                               \
-    "a metric is measured between positions, and there are lengths alone: measure them by it "     \
+    "a metric is measured between positions, and there are only lengths: measure them by it "      \
     "before")                                                                                      \
   X(darts_cloud,                                                                                   \
     "darts on a cloud are its points, so none is thrown into simplices: leave the order uniform")  \

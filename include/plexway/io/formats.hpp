@@ -21,7 +21,8 @@ enum class FileReader {
   prepared,   ///< by AnyShape::read
 };
 
-/// A format that is read. Help, messages and docs/FORMATS.md follow the one table of them.
+/// A format that is read. Help, messages and docs/reference/formats.md follow the one table of
+/// them.
 struct Format {
   std::string_view extensions;   ///< with the dot, in lower case, blanks between them
   std::string_view name;         ///< what it is called

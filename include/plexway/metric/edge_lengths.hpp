@@ -11,7 +11,7 @@
 #include <plexway/metric/tensor.hpp>
 
 /// How a metric becomes the edge lengths that complexes are built from. Plain data in, plain data
-/// out; nothing here knows a complex. docs/metrics.md says what is accurate and what is not.
+/// out; nothing here knows a complex. docs/how-to/metrics.md says what is accurate and what is not.
 namespace plexway::metric {
 
 /// The length of an edge that several simplices share and each measures in its own way.

@@ -8,7 +8,8 @@ namespace plexway {
 /// merged as long as that stays so. It is no bound; single vertices may be off by a hundred times
 /// as much. Below 1e-5 merging saves nothing any more, and that is `exact`.
 ///
-/// What goes with what is in support.hpp. docs/accuracy.md has the errors and times to expect.
+/// What goes with what is in support.hpp. docs/explanation/accuracy.md has the errors and times to
+/// expect.
 class Accuracy {
  public:
   /// By which rule: `usual` chooses one, `fast` is labels, `merged` and `exact` are windows.

@@ -16,7 +16,7 @@ std::vector<std::string> cloud_warnings(const CloudShape& cloud, const CloudSumm
   };
   if (summary.components > 1)
     warnings.push_back(why_disconnected(cloud, summary.components, Reader::tool));
-  warn(summary.isolated_points, "points", " connected to no other: no path leads there");
+  warn(summary.isolated_points, "points", " connected to no other, so they get inf");
   warn(cloud.not_finite, "points", " not finite, and dropped: vertices count those that are left");
   warn(summary.duplicates - summary.near_duplicates, "points",
        " exactly where an earlier one lies: they count as that one");

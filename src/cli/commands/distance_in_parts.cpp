@@ -182,7 +182,7 @@ std::vector<std::string> remarks_on(const JoinedCounts& joined) {
   if (joined.parts > 1 && joined.alone > 0)
     remarks.push_back(std::to_string(joined.alone) + " of " + counted(joined.parts, "files") +
                       (joined.alone == 1 ? " shares" : " share") +
-                      " no point with another, so no path leads there" +
+                      " no point with another, so they are not reached" +
                       (joined.by_ids ? "" : " (points are one where they are so to the last bit)"));
   return remarks;
 }

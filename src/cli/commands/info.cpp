@@ -51,7 +51,7 @@ void run_info(const InfoCommand& command) {
 
 void add_info_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<InfoCommand>();
-  CLI::App& app = *tool.add_subcommand("info", "What a domain is made of, and what may surprise");
+  CLI::App& app = *tool.add_subcommand("info", "What a domain is made of, and possible problems");
   add_inputs(app, *command);
   app.get_option("INPUT")->required(false);
   app.add_flag("--devices", command->devices, "list executors and devices instead");

@@ -210,7 +210,7 @@ Notes path_notes_on(const PathOutcome& outcome, const std::vector<PointSource>& 
   if (apart > 0)
     notes.add(counted(apart, "paths") + ": the length differs from the distance by up to " +
               short_number(100 * most) + " %: one of the two is off");
-  if (unreached > 0) notes.add(counted(unreached, "targets") + " not reached: no path leads there");
+  if (unreached > 0) notes.add(counted(unreached, "targets") + " not reached: there is no path");
   return notes;
 }
 
@@ -314,7 +314,7 @@ void run_path(const PathCommand& typed) {
                {command.out, command.picture.file, command.picture.html});
 
   if (unreached == outcome.paths.size())
-    throw NothingReached(command.input + ": nothing reached: no path leads to any target");
+    throw NothingReached(command.input + ": nothing reached: there is no path to any target");
   notes.say(command.quiet);
 }
 
@@ -359,7 +359,7 @@ void add_path_command(CLI::App& tool, Action& action) {
       "  plexway path knot.ply --from vertex:0 --to vertex:99 --out path.obj\n"
       "  plexway path knot.ply --from vertex:0 --to vertex:99 --to point:1,0,0 --astar --json\n"
       "  plexway path knot.ply --from vertex:0 --to vertex:99 --picture path.png\n"
-      "  plexway path organ.off --as solid --from point:0,0,0 --to point:1,1,0 -o path.vtp");
+      "  plexway path organ.off --as solid --from vertex:0 --to vertex:9 -o path.vtp");
   app.callback([command, &action] { action = [command] { run_path(*command); }; });
 }
 

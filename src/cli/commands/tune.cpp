@@ -147,11 +147,10 @@ void add_tune_command(CLI::App& tool, Action& action) {
   app.add_flag("--quiet,-q", command->quiet, "no summary, no notes, no progress");
   app.footer(
       "Examples:\n"
-      "  plexway tune training/*.obj --out table.json --restarts 4 --checkpoint tune.ckpt\n"
-      "  plexway tune training/*.obj --out table.json --restarts 4 --checkpoint tune.ckpt "
-      "--resume\n"
+      "  plexway tune *.obj --out table.json --restarts 4 --checkpoint tune.ckpt\n"
+      "  plexway tune *.obj --out table.json --restarts 4 --checkpoint tune.ckpt --resume\n"
       "  plexway tune scan.ply --from learned --evaluations 100 --cpp table.inc\n"
-      "  plexway tune training/*.obj --what saddles --from standard --triangulation auto\n"
+      "  plexway tune *.obj --what saddles --from standard --triangulation auto\n"
       "  plexway distance scan.ply --source vertex:0 --visibility tuned --table table.json");
   app.callback([command, &action] { action = [command] { run_tune(*command); }; });
 }

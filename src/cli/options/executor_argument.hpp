@@ -38,7 +38,8 @@ void add_executor_options(CLI::App& command, ExecutorArgument& argument, const s
 void check_executor(const ExecutorArgument& argument, const PropagateOptions& options,
                     bool single_precision);
 
-/// Who solves: `auto` chooses by size, of those who can (docs/CLI.md). `sources` start one field.
+/// Who solves: `auto` chooses by size, of those who can (docs/reference/cli.md). `sources` start
+/// one field.
 [[nodiscard]] Executor choose_executor(const ExecutorArgument& argument,
                                        const PropagateOptions& options, const AnyDomain& domain,
                                        std::size_t sources);

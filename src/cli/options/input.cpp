@@ -30,7 +30,7 @@ std::string input_help() {
   add(DomainKind::cloud, "a cloud of points (.pcd through PCL)");
   add(DomainKind::simplices, "simplices of dimension 1 to 4");
   return text +
-         "what may hold several is what has most dimensions; a file of another name is told by\n"
+         "what may hold several is what has most dimensions; a file of another name is known by\n"
          "its first bytes, and any may be packed (.gz); .plexway: see 'plexway prepare'";
 }
 
@@ -55,7 +55,7 @@ void add_report_options(CLI::App& app, InputCommand& command, const char* quiet)
 void add_input_options(CLI::App& app, InputCommand& command, const char* quiet) {
   app.add_option("--as", command.as, as_help)->type_name("KIND");
   app.add_flag("--strict", command.strict,
-               "refuse a file of which something is left out, guessed or mended, such as a face\n"
+               "refuse a file of which something is left out, guessed or repaired, such as a face\n"
                "with a corner twice");
   add_report_options(app, command, quiet);
   add_fill_options(app, command.fill);
