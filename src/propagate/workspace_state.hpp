@@ -24,6 +24,8 @@
 
 namespace plexway {
 
+class SolidStrings;
+
 /// All that a propagation changes, in the open.
 template <class Real>
 struct WorkspaceState {
@@ -45,6 +47,7 @@ struct WorkspaceState {
   std::vector<Index> vertex_tet;                  ///< in solids: with which tetrahedron's label
   SolidBorderMemory<Real> borders;                ///< in solids, from several sources
   LitTets<Real> lit;                              ///< in solids where paths bend, by one thread
+  std::shared_ptr<SolidStrings> strings;          ///< in solids: strings/solid_strings.hpp
   std::vector<Index> corners;                     ///< around one vertex
   std::unique_ptr<LoweringRooms<Real>> lowering;  ///< read_out_edges
   ///@{
