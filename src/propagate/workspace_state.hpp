@@ -22,6 +22,8 @@
 
 namespace plexway {
 
+class SolidStrings;
+
 /// All that a propagation changes, in the open.
 template <class Real>
 struct WorkspaceState {
@@ -40,6 +42,8 @@ struct WorkspaceState {
   PieceMemory<Real> pieces;                       ///< likewise, on surfaces
   std::vector<Real> vertex;                       ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;               ///< its labels
+  std::shared_ptr<SolidStrings> strings;          ///< in solids: strings/solid_strings.hpp
+  std::vector<Index> corners;                     ///< around one vertex
   std::vector<Index> corners;                     ///< around one vertex
   std::unique_ptr<LoweringRooms<Real>> lowering;  ///< read_out_edges
   ///@{

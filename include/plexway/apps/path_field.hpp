@@ -67,8 +67,11 @@ class PathField<Domain<Real>> {
   /// vertices' distances alone.
   template <class Executor>
   const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
-                                   const PropagateOptions& options = {}) {
+                                   const PropagateOptions& given = {}) {
     const std::span<const PointSource> there = take(sources);
+    PropagateOptions options = given;
+    // Strings leave no labels in tetrahedra, which paths are traced by.
+    if constexpr (Domain<Real>::kind == DomainKind::solid) options.accuracy = Accuracy::fast();
     constexpr bool keeps = std::is_same_v<WorkspaceOf<Executor, Domain<Real>>, Workspace<Real>>;
     if constexpr (keeps) {
       workspace_.keep_windows(true);
