@@ -75,8 +75,7 @@ HINGE_METHOD Point point_inside(Index t) HINGE_READS {
 HINGE_CONST Real face_missed = Real(1e-2);
 
 /// From a point of t straight to another; t is then the tetrahedron it came to. False if that is
-/X a tetrahedron on the way is known to
-/// be seen from there it is not gone on.
+/// outside of the solid, or behind a part of the boundary.
 bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) begin, HINGE_IN(Point) to) HINGE_READS {
   Point from = begin + inset * (point_inside(t) - begin);
   Point g = to - from;

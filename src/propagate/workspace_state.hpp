@@ -44,7 +44,6 @@ struct WorkspaceState {
   std::vector<Index> vertex_source;               ///< its labels
   std::shared_ptr<SolidStrings> strings;          ///< in solids: strings/solid_strings.hpp
   std::vector<Index> corners;                     ///< around one vertex
-  std::vector<Index> corners;                     ///< around one vertex
   std::unique_ptr<LoweringRooms<Real>> lowering;  ///< read_out_edges
   ///@{
   /// On mixed domains: one a piece that is propagated on, and what a member of a hinge has offered

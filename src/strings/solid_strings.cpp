@@ -42,14 +42,21 @@ template <class Real>
 void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
                          const PropagateOptions& options, DistanceField<Real>& field) {
   NumberRange<Real>::check_unit(mesh.unit());
-  if (!space_ || identity_ != mesh.identity()) {
-    solver_.reset();
-    space_ = std::make_unique<strings::SolidSpace>(mesh);
+  if (!solver_ || identity_ != mesh.identity()) {
+    space_ = mesh.space().template get<strings::SolidSpace>(
+        [&] { return std::make_shared<const strings::SolidSpace>(mesh); });
     solver_ = std::make_unique<strings::Solver>(*space_);
     identity_ = mesh.identity();
+    unit_ = mesh.unit();
   }
   sources_.clear();
-  for (const PointSource& s : sources) sources_.push_back(source_of(mesh, *space_, s));
+  inside_.clear();
+  for (const PointSource& s : sources) {
+    if (s.vertex == none)
+      inside_.emplace_back(mesh.inside_tet(s.simplex).first, static_cast<Index>(sources_.size()));
+    sources_.push_back(source_of(mesh, *space_, s));
+  }
+  std::sort(inside_.begin(), inside_.end());
   const std::size_t vertices = mesh.vertex_count();
   strings::Limits limits;
   limits.radius = options.radius / mesh.unit();
@@ -82,13 +89,49 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
   field.statistics.updates = solver_->counts().labels;
 }
 
+SolidStrings::Found SolidStrings::found(Index vertex) const {
+  const Index source = solver_->source(vertex);
+  if (source == none) return {std::numeric_limits<double>::infinity(), none, {}};
+  return {solver_->distance(vertex) * unit_, source, solver_->path(vertex)};
+}
+
+SolidStrings::Found SolidStrings::at(Index vertex) const {
+  const std::lock_guard lock(asked_);
+  return found(vertex);
+}
+
+template <class Real>
+SolidStrings::Found SolidStrings::at(const TetMesh<Real>& mesh, Index tet,
+                                     const std::array<double, 4>& weight) const {
+  const std::lock_guard lock(asked_);
+  std::array<Index, 4> corners;
+  Point at = {0, 0, 0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    corners[i] = mesh.tets()[tet].corner[i];
+    if (weight[i] == 1) return found(corners[i]);
+    at = at + weight[i] * space_->point(corners[i]);
+  }
+  std::vector<Index> own;
+  for (auto in = std::lower_bound(inside_.begin(), inside_.end(), std::pair{tet, Index{0}});
+       in != inside_.end() && in->first == tet; ++in)
+    own.push_back(in->second);
+  solver_->attach(at, corners, own);
+  return found(static_cast<Index>(space_->vertices()));
+}
+
 std::size_t SolidStrings::bytes() const {
-  return sizeof(*this) + (space_ ? space_->bytes() : 0) + (solver_ ? solver_->bytes() : 0);
+  return sizeof(*this) + (solver_ ? solver_->bytes() : 0) +
+         sources_.capacity() * sizeof(strings::Source);
 }
 
 template void SolidStrings::solve(const TetMesh<float>&, std::span<const PointSource>,
                                   const PropagateOptions&, DistanceField<float>&);
 template void SolidStrings::solve(const TetMesh<double>&, std::span<const PointSource>,
                                   const PropagateOptions&, DistanceField<double>&);
+
+template SolidStrings::Found SolidStrings::at(const TetMesh<float>&, Index,
+                                              const std::array<double, 4>&) const;
+template SolidStrings::Found SolidStrings::at(const TetMesh<double>&, Index,
+                                              const std::array<double, 4>&) const;
 
 }  // namespace plexway

@@ -16,7 +16,7 @@ bool Solver::solve(std::span<const Source> sources, const Limits& limits) {
   counts_ = {};
   chains_.start(sources.size());
   hints_.assign(sources.size(), 0);
-  vertices_.assign(space_->vertices(), {});
+  vertices_.assign(space_->vertices() + 1, {});
   queue_.clear();
   seed(sources);
   while (!queue_.empty()) {
@@ -72,7 +72,7 @@ void Solver::prepare(Index vertex, const Label& label) {
   const Source& source = sources_[chains_.source(label.chain)];
   a.source = chains_.source(label.chain);
   a.string.from = source.at;
-  a.string.to = space_->point(vertex);
+  a.string.to = point(vertex);
   a.string.places.clear();
   a.string.at.resize(a.places.size());
   Index chain = label.chain;
@@ -93,7 +93,7 @@ void Solver::offer(Index from, const Label& label, Index to) {
   VertexLabels& at = vertices_[to];
   if (at.knows(label.chain)) return;
   // The length of a chain is convex in where it ends.
-  const Point way = space_->point(to) - space_->point(from);
+  const Point way = point(to) - point(from);
   if (label.distance + dot(label.last, way) >= at.limit(behind_, label.last)) return;
   const Outcome outcome = attempt(from, label, to, none);
   // Where it was blocked it may come past on another side from another vertex.
@@ -113,7 +113,7 @@ Solver::Outcome Solver::attempt(Index from, const Label& label, Index to, Index 
   prepare(from, label);
   attempt_ = base_;
   attempt_.touched = false;
-  attempt_.string.to = space_->point(to);
+  attempt_.string.to = point(to);
   if (through != none) append(attempt_, through, space_->point(from));
   Outcome outcome = settle(attempt_, to, infinity);
   if (outcome != Outcome::longer) outcome = without_held(attempt_, to, outcome);
@@ -126,7 +126,7 @@ void Solver::offer_corner(Index from, const Label& label, Index to, double lengt
   ++counts_.corners;
   const Index chain = chains_.with(label.chain, static_cast<Index>(space_->places().size()) + from);
   hints_.resize(chains_.size(), 0);
-  take(to, {length, chain, unit(space_->point(to) - space_->point(from))});
+  take(to, {length, chain, unit(point(to) - point(from))});
 }
 
 void Solver::append(Attempt& a, Index number, const Point& at) {
@@ -152,7 +152,9 @@ Point Solver::end_of_leg(const Attempt& a, std::size_t corner, std::size_t other
   const Point &toward = a.string.corner(other),
               &free = other > corner ? a.legs[corner].to : a.legs[other].from;
   // The new end is seen from where the old one was: an edge of the mesh is between.
-  if (corner > a.places.size()) return space_->beside(to, toward, a.legs.back().to);
+  if (corner > a.places.size())
+    return to == space_->vertices() ? attached_beside_
+                                    : space_->beside(to, toward, a.legs.back().to);
   if (corner == 0) {
     const Source& source = sources_[a.source];
     return source.vertex != none ? space_->beside(source.vertex, toward, free) : source.beside;
@@ -294,6 +296,29 @@ void Solver::accept(const Attempt& a, Index to) {
   }
   vertices_[to].remember(chain);
   take(to, {sources_[a.source].offset + a.string.length, chain, last_leg(a)});
+}
+
+void Solver::attach(const Point& at, const std::array<Index, 4>& corners,
+                    std::span<const Index> sources) {
+  const auto number = static_cast<Index>(space_->vertices());
+  Point middle = {0, 0, 0};
+  for (const Index v : corners) middle = middle + .25 * space_->point(v);
+  attached_ = at;
+  attached_beside_ = at + space_->aside() * unit(middle - at);
+  vertices_[number] = {};
+  for (const Index n : sources) {
+    const Point leg = at - sources_[n].at;
+    take(number, {sources_[n].offset + norm(leg), n, unit(leg)});
+  }
+  for (const Index v : corners) {
+    from_ = v;
+    rows_ = space_->rows_at(v);
+    for (const Label& label : VertexLabels(vertices_[v]).labels) {
+      prepared_ = false;
+      if (label.chain != none) offer(v, label, number);
+    }
+  }
+  queue_.clear();
 }
 
 std::vector<Point> Solver::path(Index vertex) {

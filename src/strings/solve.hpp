@@ -58,6 +58,9 @@ class Solver {
     const Index chain = vertices_[vertex].best().chain;
     return chain == none ? none : chains_.source(chain);
   }
+  /// Takes a point of the tetrahedron with these corners, which these sources are in, for one more
+  /// vertex, numbered SolidSpace::vertices(), until the next one.
+  void attach(const Point& at, const std::array<Index, 4>& corners, std::span<const Index> sources);
   /// The shortest path to a vertex, its bends and both ends, from the source on. Empty where
   /// nothing leads.
   [[nodiscard]] std::vector<Point> path(Index vertex);
@@ -108,6 +111,9 @@ class Solver {
   void accept(const Attempt& attempt, Index to);
   void take(Index vertex, const Label& label);
   const Place* place(Index number);
+  [[nodiscard]] const Point& point(Index vertex) const {
+    return vertex == space_->vertices() ? attached_ : space_->point(vertex);
+  }
 
   const SolidSpace* space_;
   std::span<const Source> sources_;
@@ -120,6 +126,7 @@ class Solver {
   Attempt base_, attempt_, other_;
   Index from_ = none;                              // the vertex that offers
   std::span<const std::pair<Index, Index>> rows_;  // there
+  Point attached_ = {0, 0, 0}, attached_beside_ = {0, 0, 0};
   bool prepared_ = false;
   double behind_ = .5;
   Counts counts_;
