@@ -20,7 +20,7 @@ inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}
 
 #include "kernel/text_begin.inl"
 
-/// Visibility::saddles on solids in space: a label is a string from a point around reflex edges,
+/// Visibility::saddles on solids of mixed domains: a label is a string from a point around reflex edges,
 /// which are the only places where paths bend, and is walked through the tetrahedra before it
 /// counts.
 template <class Real, class Front>
@@ -59,17 +59,12 @@ class SolidRule : public SolidPaths<Real> {
     nearest.centre = -1;  // nothing is nearer: never accepted
     front_->put(sentinel_, nearest);
   }
-  /// The same rule on the front of another executor.
-  template <class Other>
-  [[nodiscard]] SolidRule<Real, Other> on(Other& front) const {
-    return SolidRule<Real, Other>(*this, front);
-  }
-
 #include "propagate/solid_walk.inl"
 
   /// Vertices, a mark each, that share their place with others, as on the faces of a crack;
   /// referred to. A source there is seen from the side alone that it is on.
   void tell_sides(std::span<const char> torn) { torn_ = torn.empty() ? nullptr : torn.data(); }
+
 #include "propagate/solid_step.inl"
 
   [[nodiscard]] Real distance(Index t) const { return front_->label(t).centre; }
@@ -213,18 +208,14 @@ class SolidRule : public SolidPaths<Real> {
     }
     if (by != none) offer(by, best);
   }
-  /// The same to any point of u: t, or one that touches it.
-  [[nodiscard]] Real distance_at(Index t, Index u, const Point& q,
-                                 Real known = std::numeric_limits<Real>::infinity()) const {
-    return reach_at(front_->label(t), t, common_point(t, u), u, q, known, nowhere());
-  }
-
   /// Labels of u offer a path over the edge (v, w) of t, which touches u in that edge only.
   bool pass_edge(Index u, Index t, Index v, Index w, Real known_gain) const {
     const Point q = tets_[t].centre;
     const Point b = bend_point(points_[v], points_[w], seen_from(u, tets_[u].centre).eye, q);
-    const Real walked = distance_at(u, u, b);
-    if (!(walked < std::numeric_limits<Real>::infinity())) return false;
+    constexpr Real infinity = std::numeric_limits<Real>::infinity();
+    const Real walked =
+        reach_at(front_->label(u), u, tets_[u].centre, u, b, infinity, nowhere());
+    if (!(walked < infinity)) return false;
     Label label = point_label(t, b, walked);
     label.centre = label.sigma + norm(q - b);
     if (!(label.centre < to_beat(t) * known_gain)) return false;
@@ -237,8 +228,7 @@ class SolidRule : public SolidPaths<Real> {
 
 #include "propagate/solid_shared.inl"
 
-  /// Fetches what the expansion of t will need, in two steps: t itself, then its neighbours.
-  [[gnu::always_inline]] void prefetch(Index t) const { __builtin_prefetch(&tets_[t]); }
+  /// Fetches what the expansion of t's neighbours will need.
   [[gnu::always_inline]] void prefetch_around(Index t) const {
     for (const Index across : tets_[t].across) {
       __builtin_prefetch(&tets_[across >> TetAcross::tet_shift]);
@@ -247,21 +237,6 @@ class SolidRule : public SolidPaths<Real> {
   }
 
  private:
-  template <class, class>
-  friend class SolidRule;
-  template <class Other>
-  SolidRule(const SolidRule<Real, Other>& rule, Front& front)
-      : Paths(rule.reflex_, rule.own_edges_),
-        mesh_(rule.mesh_),
-        tets_(rule.tets_),
-        points_(rule.points_),
-        list_(rule.list_),
-        sentinel_(rule.sentinel_),
-        any_reflex_(rule.any_reflex_),
-        any_cracks_(rule.any_cracks_),
-        torn_(rule.torn_),
-        front_(&front) {}
-
   /// A corner whose string is hidden, its length, and where it leaves the solid.
   struct Hidden {
     Real distance;
@@ -290,18 +265,6 @@ class SolidRule : public SolidPaths<Real> {
   [[nodiscard]] Sight last_bend(const Taut& s) const {
     return {s.at[s.bends], s.extent - norm(taut_end(s) - s.at[s.bends])};
   }
-  /// A point that t has with u, which touches it: the middle of their common corners.
-  [[nodiscard]] Point common_point(Index t, Index u) const {
-    Point sum = {0, 0, 0};
-    Real count = 0;
-    for (const Index v : tets_[t].corner)
-      if (std::find(tets_[u].corner, tets_[u].corner + 4, v) != tets_[u].corner + 4) {
-        sum = sum + points_[v];
-        ++count;
-      }
-    return t == u || count == 0 ? tets_[t].centre : Real(1) / count * sum;
-  }
-
   bool enter(Index t, std::size_t face, const Label& label, Index source) const {
     if (!(label.centre < to_beat(t))) return false;
     front_->accept(t, face, label, label.centre, source);
