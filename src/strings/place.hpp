@@ -26,6 +26,7 @@ struct Place {
   Point floor, normal;  ///< across it: within the first plane, and square to that into the solid
   double angle;         ///< of solid around it, from the first plane to the second
   Index vertex = none;  ///< of a single point
+  Index end[2] = {none, none};            ///< vertices at `low` and `high`
   Index first_wedge = 0, last_wedge = 0;  ///< where tetrahedra only touch: Boundary::wedges
 
   /// Strings that come to it never lift off: a vertex, or an edge where tetrahedra only touch.
