@@ -13,8 +13,6 @@ layout(std430, binding = 2) readonly buffer Labels { uvec4 labels[]; };
 // Where the corners of each vertex begin, then corners: 4 t + i.
 layout(std430, binding = 3) readonly buffer Corners { uint corners[]; };
 
-layout(std430, binding = 4) readonly buffer Cells { uvec4 cells[]; };  // as front.glsl's
-
 //@include solid.glsl
 
 uniform uint vertex_count, total;
@@ -34,8 +32,7 @@ void main() {
     uint corner = corners[vertex_count + 1u + n], t = corner >> 2;
     if (!reached(t)) continue;
     SolidLabel label = label_of(t);
-    label.centre = uintBitsToFloat(cells[cell_base + t].w);
-    float d = corner_reach(label, t, corner & 3u, least, nowhere());
+    precise float d = label.sigma + sqrt(label.distance2[corner & 3u]);
     if (!(d < least)) continue;
     least = d;
     any = true;

@@ -19,12 +19,10 @@ struct Tet {
   uint reflex;
 };
 layout(std430, binding = 5) readonly buffer Tets { Tet tets[]; };
-layout(std430, binding = 6) readonly buffer Points { float points[]; };
+layout(std430, binding = 6) readonly buffer Lengths { float lengths[]; };
 
 uniform uint tet_count, cell_count, vertex_count;
 uniform uint who, sources_wanted;
-
-vec3 point(uint v) { return vec3(points[3u * v], points[3u * v + 1u], points[3u * v + 2u]); }
 
 void relax(uint from, uint to, float edge) {
   uint start = vertex_best[from], end = vertex_best[to];
@@ -49,8 +47,7 @@ void main() {
     for (int i = 0; i < 3; ++i) {
       if (i >= j) continue;
       uint v = tets[t].corner[i], w = tets[t].corner[j];
-      precise vec3 along = point(w) - point(v);
-      precise float edge = sqrt(along.x * along.x + along.y * along.y + along.z * along.z);
+      float edge = sqrt(lengths[6u * t + uint(j * (j - 1) / 2 + i)]);
       relax(vertices + v, vertices + w, edge);
       relax(vertices + w, vertices + v, edge);
     }

@@ -2,10 +2,6 @@
 // The last pass of a round in solids: every label that this round settled is offered over the three
 // faces it did not come by; four invocations a label, one a face. Entries are fat, as on surfaces
 // (surface_round.comp).
-//
-// As a repair: every reached tetrahedron offers its label to neighbours without one, or with one much
-// longer than its own and the way between, with a bend on the face if need be. (Not a program of its
-// own: the step takes long to compile.)
 
 #ifndef PLEXWAY_GROUP
 #define PLEXWAY_GROUP 64
@@ -18,8 +14,6 @@ layout(std430, binding = 4) buffer WaitingLabels { uvec4 waiting_labels[]; };
 //@include solid.glsl
 
 uniform float radius;  // tetrahedra wholly beyond it are not expanded
-uniform uint last_resort;
-uniform uint repair;  // 0, or fields times tetrahedra
 
 void main() {
   start_group();
@@ -27,15 +21,7 @@ void main() {
   uvec4 a, b;
   uint cell = 0u, bits = UNREACHED, made = 0u;
   bool alive = false, waits_on = false;
-  if (repair > 0u) {
-    cell = min(number, repair - 1u);
-    bits = cells[cell].known;
-    alive = number < repair && bits != UNREACHED && uintBitsToFloat(bits) <= radius;
-    if (alive) {
-      a = labels[2u * cell];
-      b = labels[2u * cell + 1u];
-    }
-  } else if (number < round_count) {
+  if (number < round_count) {
     uint place = place_of(number);
     cell = waiting[place].cell;
     bits = waiting[place].distance;
@@ -61,14 +47,6 @@ void main() {
     alive = u != tet_count;
   }
   if (alive) known_bits = cells[cell_base + u].known;
-  if (alive && repair > 0u) {
-    if (known_bits == UNREACHED) {
-      atomicAdd(control.spare, 1u);
-    } else {
-      float excess = uintBitsToFloat(known_bits) - distance;
-      alive = excess > norm(centre_of(u) - centre_of(t)) && excess > way(t, face);
-    }
-  }
 
   bool wanted = false;
   SolidLabel label;
@@ -76,26 +54,19 @@ void main() {
     // Around a bend all paths are equally long from both sides: a gain must be more than rounding.
     const float gain = 1.0 - 16.0 * HINGE_EPSILON;
     float known = known_bits == UNREACHED ? HINGE_INFINITY : uintBitsToFloat(known_bits) * gain;
-    SolidLabel from = unpack(a, b);
-    from.centre = uintBitsToFloat(bits);
-    vec3 q = centre_of(u);
-    if (may_beat(from, straight_squared(from, q), known)) {
-      if (any_reflex() || last_resort != 0u)
-        wanted = offer_bent(from, t, face, u, known, last_resort != 0u, label);
-      else
-        wanted = offer_straight(from, t, face, q, label);
-    }
+    // Seeds were offered by the host: a source is never in t still.
+    label = offer_plain(unpack(a, b), t, face, u, across & 3u, false, false);
+    wanted = label.centre < known;
   }
   uint target = cell_base + u;
   bool near = false;
   if (wanted) {
     distance = label.centre;
-    near = distance < limit && repair == 0u;
-    wanted = repair > 0u || floatBitsToUint(distance) <= cells[target].least;
-    a = floatBitsToUint(vec4(label.source, label.sigma));
-    uint state = (across & 3u) | KNOWN;
-    if (is_unfolded(label)) state |= UNFOLDED | (label.door - unfolded_door) << 4;
-    b = uvec4(state, label.bend[0], label.bend[1], b.w);
+    near = distance < limit;
+    wanted = floatBitsToUint(distance) <= cells[target].least;
+    a = floatBitsToUint(
+        vec4(label.distance2[0], label.distance2[1], label.distance2[2], label.distance2[3]));
+    b = uvec4((across & 3u) | KNOWN, floatBitsToUint(label.sigma), 0u, b.w);
   }
   if (waits_on) {  // goes on as it is
     wanted = true;
@@ -106,9 +77,7 @@ void main() {
   if (wanted && slot < capacity) {
     uint to = (near ? near_queue : far_queue) * capacity + slot;
     uint offered = floatBitsToUint(distance);
-    // Repairs are accepted by a pass of its own: no label that this one reads may be new.
-    bool waits = waits_on || repair > 0u || lower(target, offered);
-    waiting[to] = Entry(waits ? target : NO_CELL, offered, waits_on ? made : round_number);
+    waiting[to] = Entry(waits_on || lower(target, offered) ? target : NO_CELL, offered, waits_on ? made : round_number);
     waiting_labels[2u * to] = a;
     waiting_labels[2u * to + 1u] = b;
   }

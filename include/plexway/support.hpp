@@ -46,8 +46,6 @@ struct Combination {
   bool label_options = false;
   /// Do its vertices have positions in space? Else purposes that draw or measure there have none.
   bool positions = true;
-  /// Is it a solid with a crack: two faces of its boundary that lie on each other?
-  bool cracked = false;
   /// Is it in parts over processes, of which none has the whole (SurfaceParts)?
   bool in_parts = false;
 };
@@ -68,6 +66,23 @@ constexpr Support support_of_windows(const Combination& c) {
   return Refusal::nothing;
 }
 
+/// Could strings, which solids are solved by (docs/methods/strings.md)? Else why not. By one thread,
+/// nearest first whatever the schedule.
+constexpr Support support_of_strings(const Combination& c) {
+  if (c.domain != DomainKind::solid) return Refusal::windows_domain;
+  if (c.executor == ExecutorKind::gl) return Refusal::strings_gl;
+  if (c.metric != MetricKind::embedded) return Refusal::strings_lengths;
+  if (c.visibility != Visibility::saddles) return Refusal::strings_visibility;
+  if (c.label_options) return Refusal::windows_labels;
+  if (c.accuracy == Accuracy::Kind::exact) return Refusal::strings_exact;
+  return Refusal::nothing;
+}
+
+/// Does a cell know another accuracy than `fast`? Else why not.
+constexpr Support support_of_accuracy(const Combination& c) {
+  return c.domain == DomainKind::solid ? support_of_strings(c) : support_of_windows(c);
+}
+
 /// What `usual` comes to in this cell; whatever else is asked for as it is.
 [[nodiscard]] Accuracy resolved(Accuracy accuracy, const Combination& c);
 
@@ -84,7 +99,7 @@ constexpr Support support(const Combination& c) {
   const bool tuned = c.visibility == Visibility::tuned;
   const bool saddles = c.visibility == Visibility::saddles;
   const bool priority = c.schedule == Schedule::priority;
-  const bool by_windows =
+  const bool not_fast =
       c.accuracy == Accuracy::Kind::merged || c.accuracy == Accuracy::Kind::exact;
   const bool shape = c.source == SourceKind::curve || c.source == SourceKind::simplex;
 
@@ -105,20 +120,18 @@ constexpr Support support(const Combination& c) {
   if (c.domain == mixed && !saddles) return Refusal::mixed_visibility;
   if (c.metric == MetricKind::refracting && gl) return Refusal::gl_refraction;
   if (c.metric == MetricKind::refracting && !saddles) return Refusal::refraction_visibility;
-  if (c.domain == solid && c.metric != MetricKind::embedded && gl) return Refusal::gl_lengths;
   if (gl && !saddles) return Refusal::gl_visibility;
   // Order.
   if (priority && !serial) return Refusal::order;
   if (priority && c.domain == mixed) return Refusal::mixed_order;
   // Accuracy.
-  const Support windows = support_of_windows(c);
-  if (by_windows && !windows) return windows;
+  if (const Support found = support_of_accuracy(c); not_fast && !found) return found;
   // Sources.
   if (c.domain == cloud && c.source == SourceKind::point) return Refusal::cloud_point;
   if (c.dimension > 3 && c.source == SourceKind::point) return Refusal::point_of_five;
   if (shape && c.domain != wireframe) {
     if (c.domain != surface) return Refusal::shapes;
-    const bool by_labels = c.accuracy == Accuracy::Kind::fast || !windows;
+    const bool by_labels = c.accuracy == Accuracy::Kind::fast || !support_of_windows(c);
     if (by_labels && gl) return Refusal::shapes_gl;
     if (by_labels && !saddles) return Refusal::shapes_visibility;
     if (by_labels && !serial) return Refusal::shapes_threads;
@@ -218,8 +231,8 @@ constexpr Support support(Purpose purpose, const Combination& c) {
     case Purpose::read_out:
       if (c.domain == simplices) return Refusal::read_out_simplices;
       if (c.domain == cloud) return Refusal::read_out_cloud;
-      if (c.domain == wireframe) break;                          // by the ends
-      if (c.domain == mixed || refracting || by_lengths) break;  // by paths
+      if (c.domain == wireframe) break;                               // by the ends
+      if (c.domain == mixed || refracting || c.domain == solid) break;  // by paths
       if (!labels) return Refusal::read_out_labels;
       break;
     case Purpose::directions:
@@ -227,11 +240,12 @@ constexpr Support support(Purpose purpose, const Combination& c) {
       if (c.domain == simplices || c.domain == mixed) break;  // of the linear field
       if (refracting) return Refusal::directions_refraction;
       if (by_lengths) return Refusal::directions_lengths;
+      if (c.domain == solid) break;  // by paths
       if (!labels) return Refusal::read_out_labels;
       break;
     case Purpose::simplex_labels:
       if (c.domain != surface && c.domain != solid) return Refusal::simplex_labels_domain;
-      if (gl) return Refusal::simplex_labels_gl;
+      if (gl && (c.domain == surface || by_lengths)) return Refusal::simplex_labels_gl;
       break;
     case Purpose::searches:
       if (c.domain != surface) return Refusal::search_domain;
@@ -249,7 +263,6 @@ constexpr Support support(Purpose purpose, const Combination& c) {
         return Refusal::samples_domain;
       if (refracting) return Refusal::search_refraction;
       if (by_lengths) return Refusal::samples_lengths;
-      if (c.cracked && saddles) return Refusal::samples_crack;
       break;
     case Purpose::darts:
       if (c.domain == cloud) return Refusal::darts_cloud;
@@ -350,13 +363,11 @@ constexpr Support support(Purpose purpose, DomainKind domain,
 /// The cell of a complex, with everything that it tells, by default options.
 template <DomainType D>
 [[nodiscard]] constexpr Combination combination_of(const D& domain, ExecutorKind executor) {
-  Combination what = {.executor = executor,
-                      .domain = D::kind,
-                      .dimension = D::dimension,
-                      .single_precision = std::is_same_v<typename D::Number, float>,
-                      .metric = domain.metric()};
-  if constexpr (D::kind == DomainKind::solid) what.cracked = domain.has_crack();
-  return what;
+  return {.executor = executor,
+          .domain = D::kind,
+          .dimension = D::dimension,
+          .single_precision = std::is_same_v<typename D::Number, float>,
+          .metric = domain.metric()};
 }
 /// Does a purpose go together with a complex?
 template <DomainType D>

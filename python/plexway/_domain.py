@@ -198,9 +198,10 @@ class Domain:
             list of `Vertex`, `Point`, `Vertices`, `Segment`, `Polyline`, `Ball`, `WholeSimplex`,
             `Boundary`.
         accuracy : {'fast', 'accurate', 'exact'} or float, optional
-            On surfaces and clouds, how near to the exact distances: 'fast' has mean relative errors
-            around 1e-3, 'accurate' below 1e-4, 'exact' (in double precision) none but rounding; a
-            number is the mean error to expect. None: 'accurate' where it is supported, else 'fast'.
+            On surfaces, clouds and solids, how near to the exact distances: 'fast' has mean relative
+            errors around 1e-3, 'accurate' below 1e-4, 'exact' (in double precision, not of solids)
+            none but rounding; a number is the mean error to expect. None: 'accurate' where it is
+            supported, else 'fast'.
         radius : float
             Go no farther: what is beyond is at ``inf``.
         threads : int, optional
@@ -313,7 +314,9 @@ class Domain:
                 self._native, sources, arguments, False, True, report
             )
         if len(error) != len(found):
-            raise _plexway.UsageError("accuracy 'fast' has no estimate of its error")
+            raise _plexway.UsageError(
+                "errors are estimated on surfaces and clouds, by other accuracies than 'fast'"
+            )
         warn(doubts, self)
         return found, error
 

@@ -81,20 +81,21 @@ BentCrossings find(const MixedComplex<Real>& domain) {
 SolidBends solid_bends(const AnyDomain& domain) {
   return with_complex(domain, []<class C>(const C& complex) {
     SolidBends found;
-    const auto add = [&]<class Solid>(const Solid& solid) {
-      if constexpr (std::is_same_v<Solid, TetMesh<float>> || std::is_same_v<Solid, TetMesh<double>>)
-        for (const auto& edge : solid.reflex_edges()) {
-          ++found.edges;
-          found.cracks += is_crack(edge);
-        }
-    };
     if constexpr (std::is_same_v<C, MixedComplex<float>> ||
                   std::is_same_v<C, MixedComplex<double>>) {
       const auto joined = complex.joined();
       const C& whole = joined ? joined->domain : complex;
-      for (const auto& piece : whole.pieces()) std::visit(add, whole.complex(piece));
-    } else {
-      add(complex);
+      if (whole.pieces().size() == 1) return found;
+      for (const auto& piece : whole.pieces())
+        std::visit(
+            [&](const auto& part) {
+              if constexpr (requires { part.reflex_edges(); })
+                for (const auto& edge : part.reflex_edges()) {
+                  ++found.edges;
+                  found.cracks += is_crack(edge);
+                }
+            },
+            whole.complex(piece));
     }
     return found;
   });

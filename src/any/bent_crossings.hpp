@@ -11,8 +11,8 @@ struct SolidBends {
   std::size_t edges = 0;
   std::size_t cracks = 0;  ///< of those, ends of cracks
 };
-/// Of all solids of a mixed domain; none where there is no solid in space. Cost: those edges, and
-/// what joins pieces of a mixed domain.
+/// Of all solids of a mixed domain; none in others, nor where all pieces join to one. Cost: those
+/// edges, and what joins pieces.
 [[nodiscard]] SolidBends solid_bends(const AnyDomain& domain);
 
 /// Where ways of a mixed domain may be refracted and bend around a solid's edges besides.

@@ -190,7 +190,7 @@ std::vector<Remark> domain_remarks(const AnyDomain& solver, Reader reader) {
                             : ""));
   // A single crack has two ends.
   if (const SolidBends bends = solid_bends(solver); bends.cracks > 0 && bends.edges > 2)
-    remark("the solid has cracks, and " + counted(bends.edges, "edges") +
+    remark("solids of the domain have cracks, and " + counted(bends.edges, "edges") +
            " around which ways bend: single vertices behind several of them may be up to a quarter "
            "too far");
   return remarks;
@@ -294,7 +294,7 @@ std::vector<Remark> field_remarks(const AnyDomain& solver, const AnyField& field
   if (const std::size_t edges = are_several(sources) ? solid_bends(solver).edges : 0; edges > 0)
     remark(
         "ways from several sources bend around " + counted(edges, "edges") +
-        " of the solid: single vertices between what is nearest to the one and to the other "
+        " of solids: single vertices between what is nearest to the one and to the other "
         "may be up to a quarter too far; the least of a field from each source is more accurate");
   FieldWork work = work_of(solver, field.statistics(), field.accuracy());
   work.complete = field.complete();

@@ -101,12 +101,12 @@ DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points
       });
 }
 
-// By windows; `given` is what was asked for, `accuracy` what it comes to.
-template <class Real>
-DistanceMatrix window_matrix(const TriangleMesh<Real>& mesh, std::span<const PointSource> points,
-                             const std::function<bool(double)>& progress, Accuracy given,
-                             Accuracy accuracy, const SourceDomain& limits) {
-  PathField field(mesh);
+// By windows or strings; `given` is what was asked for, `accuracy` what it comes to.
+template <class Complex>
+DistanceMatrix field_matrix(const Complex& domain, std::span<const PointSource> points,
+                            const std::function<bool(double)>& progress, Accuracy given,
+                            Accuracy accuracy, const SourceDomain& limits) {
+  PathField field(domain);
   PropagateOptions options;
   options.accuracy = given;
   DistanceMatrix result = by_rows(
@@ -121,28 +121,37 @@ DistanceMatrix window_matrix(const TriangleMesh<Real>& mesh, std::span<const Poi
   return result;
 }
 
+// By what the accuracy comes to.
+template <class Complex>
+DistanceMatrix any_matrix(const Complex& domain, std::span<const PointSource> points,
+                          const std::function<bool(double)>& progress, Accuracy accuracy,
+                          const SourceDomain& limits) {
+  Combination cell = combination<Serial, Complex>();
+  cell.metric = domain.metric();
+  cell.accuracy = accuracy.kind();
+  support(cell).require();
+  const Accuracy found = resolved(accuracy, cell);
+  if (found == Accuracy::fast()) return matrix(domain, points, progress, limits);
+  return field_matrix(domain, points, progress, accuracy, found, limits);
+}
+
 }  // namespace
 
 template <class Real>
 DistanceMatrix distance_matrix(Serial, const TriangleMesh<Real>& mesh,
                                std::span<const PointSource> points,
                                const std::function<bool(double)>& progress, Accuracy accuracy) {
-  const SourceDomain limits = {mesh.vertex_count(), mesh.face_count(), "face", 3};
-  Combination cell = combination<Serial, TriangleMesh<Real>>();
-  cell.metric = mesh.metric();
-  cell.accuracy = accuracy.kind();
-  support(cell).require();
-  const Accuracy found = resolved(accuracy, cell);
-  if (found == Accuracy::fast()) return matrix(mesh, points, progress, limits);
-  return window_matrix(mesh, points, progress, accuracy, found, limits);
+  return any_matrix(mesh, points, progress, accuracy,
+                    {mesh.vertex_count(), mesh.face_count(), "face", 3});
 }
 
 template <class Real>
 DistanceMatrix distance_matrix(Serial, const TetMesh<Real>& mesh,
                                std::span<const PointSource> points,
-                               const std::function<bool(double)>& progress) {
+                               const std::function<bool(double)>& progress, Accuracy accuracy) {
   support(Purpose::samples, mesh).require();
-  return matrix(mesh, points, progress, {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
+  return any_matrix(mesh, points, progress, accuracy,
+                    {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
 }
 
 template <class Real>
@@ -167,9 +176,9 @@ template DistanceMatrix distance_matrix(Serial, const TriangleMesh<double>&,
                                         std::span<const PointSource>,
                                         const std::function<bool(double)>&, Accuracy);
 template DistanceMatrix distance_matrix(Serial, const TetMesh<float>&, std::span<const PointSource>,
-                                        const std::function<bool(double)>&);
+                                        const std::function<bool(double)>&, Accuracy);
 template DistanceMatrix distance_matrix(Serial, const TetMesh<double>&,
                                         std::span<const PointSource>,
-                                        const std::function<bool(double)>&);
+                                        const std::function<bool(double)>&, Accuracy);
 
 }  // namespace plexway

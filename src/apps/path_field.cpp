@@ -11,9 +11,8 @@
 
 #include "apps/cell_trace.hpp"
 #include "apps/laid_path.hpp"
-#include "apps/solid_read_out.hpp"
-#include "apps/solid_trace.hpp"
 #include "apps/solved.hpp"
+#include "apps/string_paths.hpp"
 #include "apps/surface_read_out.hpp"
 #include "apps/surface_trace.hpp"
 #include "apps/window_read_out.hpp"
@@ -38,7 +37,7 @@ SourceDomain described(const Wireframe<Real>& wireframe) {
 
 template <class Real>
 Path trace_in(const TetMesh<Real>& mesh, const Solved<Real>& solved, const PointSource& point) {
-  return trace_solid(mesh, solved, point);
+  return StringPaths<Real>(mesh, solved).trace(point);
 }
 template <class Real>
 Path trace_in(const Wireframe<Real>& wireframe, const Solved<Real>& solved,
@@ -61,7 +60,7 @@ struct ReadOutFor<TriangleMesh<Real>> {
 };
 template <class Real>
 struct ReadOutFor<TetMesh<Real>> {
-  using Type = SolidReadOut<Real>;
+  using Type = StringPaths<Real>;
 };
 template <class Real>
 struct ReadOutFor<Wireframe<Real>> {
@@ -77,12 +76,12 @@ double distance_in(const TriangleMesh<Real>& mesh, const SurfaceReadOut<Real>& r
   return read_out.at(f, inside(at.barycentric, turned), level) * mesh.unit();
 }
 template <class Real>
-double distance_in(const TetMesh<Real>& mesh, const SolidReadOut<Real>& read_out,
+double distance_in(const TetMesh<Real>& mesh, const StringPaths<Real>& paths,
                    const PointSource& at, ReadOut level) {
   const auto [t, turned] = mesh.inside_tet(at.simplex);
   std::array<double, 4> weight = at.barycentric;
   if (turned) std::swap(weight[2], weight[3]);
-  return read_out.at(t, weight, level) * mesh.unit();
+  return paths.at(t, weight, level);
 }
 template <class Real>
 double distance_in(const Wireframe<Real>& wireframe, const WireReadOut<Real>& read_out,
@@ -201,9 +200,18 @@ std::span<const PointSource> PathField<Domain<Real>>::take(std::span<const Point
 }
 
 template <template <class> class Domain, class Real>
-void PathField<Domain<Real>>::took(Visibility visibility, Kept kept) {
-  visibility_ = visibility;
+void PathField<Domain<Real>>::took(const PropagateOptions& options, Kept kept) {
+  visibility_ = options.visibility;
   kept_ = kept;
+  if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>)
+    if (!cells_ && kept != Kept::windows) {
+      PropagateOptions by_strings = options;
+      by_strings.max_expansions = PropagateOptions{}.max_expansions;  // others are counted
+      DistanceField<Real> unused;
+      auto& strings = workspace_.state().strings;
+      if (!strings) strings = std::make_shared<SolidStrings>();
+      strings->solve(*domain_, sources_, by_strings, unused);
+    }
   if (cells_) cell_distance_ = cell_distances<Real>(*cells_, field_.distance);
   solved_ = true;
 }
@@ -308,12 +316,9 @@ std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
   std::vector<std::array<double, 3>> directions;
   if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
     const Solved<Real> solved = this->solved();
-    const SolidReadOut<Real> read_out(*domain_, solved);
-    directions.assign(domain_->tet_count(), {0, 0, 0});
-    for (Index tet = 0; tet < domain_->tet_count(); ++tet) {
-      const Index t = domain_->inside_tet(tet).first;
-      if (workspace_.state().marks.reached(t)) directions[tet] = read_out.gradient(t);
-    }
+    const StringPaths<Real> paths(*domain_, solved);
+    for (Index tet = 0; tet < domain_->tet_count(); ++tet)
+      directions.push_back(paths.gradient(domain_->inside_tet(tet).first));
   }
   if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
     const Solved<Real> solved = this->solved();
@@ -361,7 +366,14 @@ std::vector<Index> PathField<Domain<Real>>::simplex_labels() const {
         take(f);
     }
   } else if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
-    for (Index t = 0; t < domain_->tet_count(); ++t) take(domain_->inside_tet(t).first);
+    if (cells_) {
+      for (Index t = 0; t < domain_->tet_count(); ++t) take(domain_->inside_tet(t).first);
+    } else {
+      const Solved<Real> solved = this->solved();
+      const StringPaths<Real> paths(*domain_, solved);
+      for (Index t = 0; t < domain_->tet_count(); ++t)
+        labels.push_back(paths.source(domain_->inside_tet(t).first));
+    }
   }
   return labels;
 }

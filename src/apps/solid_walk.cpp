@@ -1,16 +1,10 @@
 #include "apps/solid_walk.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace plexway {
-
-template <class Real>
-typename SolidWalk<Real>::Point SolidWalk<Real>::place(Index t, const Barycentric& b) const {
-  Point p = {0, 0, 0};
-  for (std::size_t i = 0; i < 4; ++i) p = p + b[i] * vertex(mesh_.tets()[t].corner[i]);
-  return p;
-}
 
 template <class Real>
 typename SolidWalk<Real>::Barycentric SolidWalk<Real>::barycentric(Index t, const Point& p) const {
@@ -58,12 +52,26 @@ void SolidWalk<Real>::around(Index t, const Point& at, std::vector<Index>& tets)
 }
 
 template <class Real>
-typename SolidWalk<Real>::Walk SolidWalk<Real>::walk(std::span<const Index> from, const Point& p,
-                                                     const Point& q,
-                                                     std::vector<Step>* steps) const {
+void SolidWalk<Real>::all_at(Index t, const Point& at, std::vector<Index>& tets) const {
+  around(t, at, tets);
+  const Barycentric b = barycentric(t, at);
+  std::vector<Index> own;  // corners that it lies between
+  for (std::size_t i = 0; i < 4; ++i)
+    if (std::abs(b[i]) > 1e-7) own.push_back(mesh_.tets()[t].corner[i]);
+  if (own.empty() || own.size() > 2) return;
+  for (const Index c : mesh_.corners_at(own.front())) {
+    const Index* const corner = mesh_.tets()[c / 4].corner;
+    if (std::find(corner, corner + 4, own.back()) == corner + 4) continue;
+    if (std::find(tets.begin(), tets.end(), c / 4) == tets.end()) tets.push_back(c / 4);
+  }
+}
+
+template <class Real>
+bool SolidWalk<Real>::walk(std::span<const Index> from, const Point& p, const Point& q,
+                           std::vector<Step>* steps) const {
   const Index sentinel = static_cast<Index>(mesh_.tet_count());
   constexpr double progress = 1e-12;
-  if (steps != nullptr) steps->clear();
+  steps->clear();
   double at = 0;
   Index t = none, face = none;
   double until = -1;
@@ -79,8 +87,8 @@ typename SolidWalk<Real>::Walk SolidWalk<Real>::walk(std::span<const Index> from
   best_of(from);
   std::vector<Index> tets;
   while (t != none) {
-    if (steps != nullptr) steps->push_back({t, at, std::min(until, 1.)});
-    if (until >= 1) return {true, t};
+    steps->push_back({t, at, std::min(until, 1.)});
+    if (until >= 1) return true;
     at = until;
     const Index before = t;
     const Index next = mesh_.tets()[t].across[face] >> TetAcross::tet_shift;
@@ -94,9 +102,8 @@ typename SolidWalk<Real>::Walk SolidWalk<Real>::walk(std::span<const Index> from
       around(before, p + at * (q - p), tets);
       best_of(tets);
     }
-    if (t == none) return {false, before};
   }
-  return {false, from.empty() ? none : from[0]};
+  return false;
 }
 
 template class SolidWalk<float>;

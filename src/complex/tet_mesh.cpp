@@ -330,7 +330,7 @@ std::size_t TetMesh<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(tets_) + of(points_) + of(lengths_) + of(reflex_) + of(reflex_list_) +
          of(vertex_to_inside_) + of(tet_to_inside_) + of(corners_begin_) + of(corners_) +
-         of(pinched_) + of(pinched_edges_) + of(pinched_edge_tets_);
+         of(pinched_) + of(pinched_edges_) + of(pinched_edge_tets_) + space_.bytes();
 }
 
 template class TetMesh<float>;

@@ -10,8 +10,6 @@
 #include <plexway/propagate/options.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "executors/crack_sources.hpp"
-
 namespace plexway {
 
 /// What a source may name.
@@ -82,13 +80,9 @@ inline void check(std::span<const PointSource> sources, const PropagateOptions& 
   for (const PointSource& s : sources) check_source(s, domain);
 }
 
-/// In solids also for a source on a crack.
 template <SimplexDomainType D>
 void check(std::span<const PointSource> sources, const PropagateOptions& options, const D& domain) {
   check(sources, options, source_domain(domain));
-  if constexpr (D::kind == DomainKind::solid)
-    if (const auto found = source_on_crack(domain, sources, options))
-      refuse(*found, sources[found->number], "tet");
 }
 
 }  // namespace plexway

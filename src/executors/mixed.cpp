@@ -11,6 +11,7 @@
 
 #include "complex/joined_pieces.hpp"
 #include "executors/checks.hpp"
+#include "executors/crack_sources.hpp"
 #include "executors/crowd_watch.hpp"
 #include "executors/owned_work.hpp"
 #include "executors/run.hpp"
@@ -116,6 +117,7 @@ template <class Real>
 std::optional<OnCrack> source_on_crack(const MixedComplex<Real>& domain,
                                        std::span<const PointSource> sources,
                                        const PropagateOptions& options) {
+  if (domain.pieces().size() == 1) return {};  // strings know the sides
   for (const auto& piece : domain.pieces()) {
     const auto* const solid = std::get_if<TetMesh<Real>>(&domain.complex(piece));
     if (solid == nullptr) continue;

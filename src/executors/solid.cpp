@@ -3,6 +3,8 @@
 #include "executors/owned_crew.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_solid.hpp"
+#include "executors/supported.hpp"
+#include "strings/solid_strings.hpp"
 
 namespace plexway {
 
@@ -12,6 +14,13 @@ void solve_points(const E& executor, const TetMesh<Real>& mesh,
                   Workspace<Real>& kept, DistanceField<Real>& field) {
   WorkspaceState<Real>& workspace = kept.state();
   check(sources, options, mesh);
+  const Accuracy accuracy = resolved(
+      options.accuracy, detail::with(combination<E, TetMesh<Real>>(), mesh.metric(), options));
+  if (accuracy != Accuracy::fast()) {
+    if (!workspace.strings) workspace.strings = std::make_shared<SolidStrings>();
+    workspace.strings->solve(mesh, sources, options, field);
+    return;
+  }
   workspace.pieces.counts().start();
   drive<true>(executor, mesh, sources, options, workspace, [&](auto queue, const auto& crew) {
     solid::solve_with<Real, true>(mesh, sources, options, workspace, queue, crew, field);

@@ -9,7 +9,7 @@ namespace plexway {
 
 Accuracy resolved(Accuracy accuracy, const Combination& c) {
   if (accuracy.kind() != Accuracy::Kind::usual) return accuracy;
-  return support_of_windows(c) ? Accuracy::accurate() : Accuracy::fast();
+  return support_of_accuracy(c) ? Accuracy::accurate() : Accuracy::fast();
 }
 
 Combination with(Combination what, const PropagateOptions& options) {

@@ -13,18 +13,23 @@
 
 namespace plexway {
 
+#include "kernel/text_begin.inl"
+
 /// The plain step in solids: the K = 2 hinge kernel on labels that hold nothing but squared
-/// lengths. A path may bend on any face. Probing the centroid (Visibility::centroid) is the literal
-/// step; probing the apex (upper_bound) measures only paths that exist: if a face is seen whole,
-/// and the apex through it, then so is all of the tetrahedron.
+/// lengths. A path may bend on any face. Probing the centroid is the literal step of GSP; probing
+/// the apex (Visibility::upper_bound) measures only paths that exist: if a face is seen whole, and
+/// the apex through it, then so is all of the tetrahedron.
 template <class Real, class Front>
-class PlainSolidRule {
+class PlainSolidRule : kernel::HingeKernel<Real, 2> {
+  using Kernel = kernel::HingeKernel<Real, 2>;
+  using Kernel::K, Kernel::KE, Kernel::make_pose, Kernel::locate, Kernel::carry, Kernel::behind,
+      Kernel::crossing, Kernel::vertex_point, Kernel::distance_squared;
+  using typename Kernel::HingePose, typename Kernel::HingePoint, typename Kernel::HingeStep;
+
  public:
   using Label = PlainSolidLabel<Real>;
-  using Kernel = kernel::HingeKernel<Real, 2>;
-  using Point = typename Kernel::HingePoint;
 
-  PlainSolidRule(const TetMesh<Real>& mesh, Front& front, Visibility policy)
+  PlainSolidRule(const TetMesh<Real>& mesh, Front& front, Visibility policy = Visibility::centroid)
       : mesh_(&mesh),
         tets_(mesh.tets().data()),
         points_(mesh.points().data()),
@@ -32,7 +37,6 @@ class PlainSolidRule {
         sentinel_(static_cast<Index>(mesh.tet_count())),
         embedded_(mesh.embedded()),
         policy_(policy),
-        apex_(policy == Visibility::upper_bound),
         front_(&front) {}
   /// The same rule on the front of another executor.
   template <class Other>
@@ -47,7 +51,7 @@ class PlainSolidRule {
   /// At least the longest way from the centre to a corner.
   [[nodiscard]] Real size(Index t) const {
     Real longest = 0;
-    for (Index e = 0; e < 6; ++e) longest = std::max(longest, edge2(t, e));
+    for (Index e = 0; e < 6; ++e) longest = std::max(longest, squared_edge(t, e));
     return std::sqrt(longest);
   }
   /// Nothing is ever dropped, so nothing is ever too long.
@@ -67,60 +71,21 @@ class PlainSolidRule {
   void prefetch(Index) const {}
   void prefetch_around(Index) const {}
 
+#include "propagate/plain_solid_step.inl"
+
   void cross(Index t, Index face, bool) const {
     const Index across = tets_[t].across[face];
     const Index u = across >> TetAcross::tet_shift, apex = across & TetAcross::face_mask;
     if (u == sentinel_) return;
-    const Label& from = front_->label(t);
-    // The face in both numberings; its first vertex is an end of its shortest edge, as poses like.
-    Index here[3], there[3];
-    for (Index i = 0, n = 0; i < 4; ++i)
-      if (i != apex) {
-        there[n] = i;
-        here[n++] = corner_of(t, tets_[u].corner[i]);
-      }
-    Real shortest = edge2(u, tet_edge(there[0], there[1]));
-    if (const Real l = edge2(u, tet_edge(there[0], there[2])); l < shortest) shortest = l;
-    if (edge2(u, tet_edge(there[1], there[2])) < shortest) {
-      std::swap(there[0], there[2]);
-      std::swap(here[0], here[2]);
-    }
-    const Real face2[3] = {edge2(u, tet_edge(there[0], there[1])),
-                           edge2(u, tet_edge(there[0], there[2])),
-                           edge2(u, tet_edge(there[1], there[2]))};
-    const auto pose = Kernel::make_pose(face2);
-    const Real s2[3] = {from.distance2[here[0]], from.distance2[here[1]], from.distance2[here[2]]};
-    const Point S = Kernel::locate(pose, s2);
-    const Real t2[3] = {edge2(t, tet_edge(here[0], face)), edge2(t, tet_edge(here[1], face)),
-                        edge2(t, tet_edge(here[2], face))};
-    const Point back = Kernel::locate(pose, t2);
-    const bool behind = t != inside_ && Kernel::behind(pose, S, back, from.distance2[face]) > 0;
-    const Real a2[3] = {edge2(u, tet_edge(there[0], apex)), edge2(u, tet_edge(there[1], apex)),
-                        edge2(u, tet_edge(there[2], apex))};
-    const Point tip = Kernel::locate(pose, a2);
-    Point probe = tip;
-    if (!apex_) {
-      for (int j = 0; j < 2; ++j) {
-        Real sum = tip.x[j];
-        for (int i = 0; i < 3; ++i) sum += Kernel::vertex_point(pose, i).x[j];
-        probe.x[j] = sum / 4;
-      }
-      probe.h = tip.h / 4;
-    }
-    const auto step = Kernel::carry(pose, S, from.sigma, probe, behind, tolerance);
-    Label label;
-    for (int i = 0; i < 3; ++i)
-      label.distance2[there[i]] =
-          step.visible ? s2[i]
-                       : Kernel::distance_squared(pose, step.source, Kernel::vertex_point(pose, i));
-    label.distance2[apex] = Kernel::distance_squared(pose, step.source, tip);
-    const Real sigma = step.visible ? step.sigma : from.sigma + (step.sigma - from.sigma) * longer;
-    accept(u, apex, label, sigma, front_->source(t));
+    const Label label = offer_plain(front_->label(t), t, face, u, apex, t == inside_,
+                                    policy_ == Visibility::upper_bound);
+    take(u, apex, label, front_->source(t));
   }
 
   bool seed_corner(Index t, Index i, Real sigma, Index source) const {
     Label label;
-    for (Index j = 0; j < 4; ++j) label.distance2[j] = i == j ? 0 : edge2(t, tet_edge(i, j));
+    for (Index j = 0; j < 4; ++j)
+      label.distance2[j] = i == j ? 0 : squared_edge(t, tet_edge(i, j));
     return accept(t, (i + 1) & 3, label, sigma, source);
   }
 
@@ -167,7 +132,7 @@ class PlainSolidRule {
     using Edge = kernel::HingeKernel<Real, 1>;
     const Index u0 = corner_of(u, v), u1 = corner_of(u, w);
     const Index t0 = corner_of(t, v), t1 = corner_of(t, w);
-    const Real e2[1] = {edge2(t, tet_edge(t0, t1))};
+    const Real e2[1] = {squared_edge(t, tet_edge(t0, t1))};
     const auto pose = Edge::make_pose(e2);
     const Real s2[2] = {front_->label(u).distance2[u0], front_->label(u).distance2[u1]};
     const auto S = Edge::locate(pose, s2);
@@ -178,7 +143,7 @@ class PlainSolidRule {
     for (Index i = 0; i < 4; ++i) {
       if (i == t0 || i == t1) continue;
       hinge = i;
-      const Real q2[2] = {edge2(t, tet_edge(t0, i)), edge2(t, tet_edge(t1, i))};
+      const Real q2[2] = {squared_edge(t, tet_edge(t0, i)), squared_edge(t, tet_edge(t1, i))};
       const auto q = Edge::locate(pose, q2);
       auto c = Edge::crossing(S, q);
       auto b = Edge::vertex_point(pose, 0);
@@ -187,7 +152,7 @@ class PlainSolidRule {
       for (Index j = 0; j < 4; ++j) {
         auto at = Edge::vertex_point(pose, j == t1 ? 1 : 0);
         if (j != t0 && j != t1) {
-          const Real j2[2] = {edge2(t, tet_edge(t0, j)), edge2(t, tet_edge(t1, j))};
+          const Real j2[2] = {squared_edge(t, tet_edge(t0, j)), squared_edge(t, tet_edge(t1, j))};
           at = Edge::locate(pose, j2);
         }
         label.distance2[j] = Edge::distance_squared(pose, b, at);
@@ -200,20 +165,55 @@ class PlainSolidRule {
     return accept(t, hinge, best, best.sigma, front_->source(u));
   }
 
- private:
-  // In a grid lines pass exactly through edges and corners of faces. They may miss by so much of a
-  // face, and a bend's way is longer by more than rounding: of two paths of one length the straight
-  // one wins.
-  static constexpr Real tolerance = sizeof(Real) == 4 ? Real(2e-4) : Real(1e-9);
-  static constexpr Real longer = 1 + 32 * std::numeric_limits<Real>::epsilon();
-
-  [[nodiscard]] Index corner_of(Index t, Index vertex) const {
-    Index i = 0;
-    while (tets_[t].corner[i] != vertex) ++i;
-    return i;
+  /// The distance of a point of u, given by one coordinate a corner, by the label of t: u itself,
+  /// or one that touches it. It is the length of a path over what they have in common.
+  [[nodiscard]] Real distance_at(Index t, Index u, const std::array<double, 4>& at) const {
+    const Label& from = front_->label(t);
+    Real off2[4];
+    for (Index i = 0; i < 4; ++i) off2[i] = std::max(squared_from(u, at, i), Real(0));
+    if (t == u) return from.sigma + distance_by(t, from, at);
+    for (Index face = 0; face < 4; ++face) {
+      const Index across = tets_[t].across[face];
+      if (across >> TetAcross::tet_shift != u) continue;
+      const SolidHinge hinge = pose_face(from, t, u, across & TetAcross::face_mask);
+      const Real q2[3] = {off2[hinge.there[0]], off2[hinge.there[1]], off2[hinge.there[2]]};
+      const HingePoint q = locate(hinge.pose, q2);
+      const auto step = carry(hinge.pose, hinge.source, from.sigma, q, false, face_tolerance);
+      return step.sigma + std::sqrt(distance_squared(hinge.pose, step.source, q));
+    }
+    Real best = std::numeric_limits<Real>::infinity();
+    for (Index i = 0; i < 4; ++i)
+      for (Index j = 0; j < 4; ++j)
+        if (vertex_of(t, i) == vertex_of(u, j))
+          best = std::min(best, corner_distance(t, i) + std::sqrt(off2[j]));
+    return best;
   }
 
-  [[nodiscard]] Real edge2(Index t, Index edge) const {
+  /// Length of the path from the source of t through a face to that of the neighbour; +inf if none
+  /// passes there.
+  [[nodiscard]] Real meeting_over(Index t, Index face) const {
+    const Index across = tets_[t].across[face], u = across >> TetAcross::tet_shift;
+    const Label &here = front_->label(t), &beyond = front_->label(u);
+    const SolidHinge hinge = pose_face(here, t, u, across & TetAcross::face_mask);
+    Real other2[3];
+    for (int i = 0; i < 3; ++i) other2[i] = beyond.distance2[hinge.there[i]];
+    const HingePoint other = locate(hinge.pose, other2);
+    if (!Kernel::inside(hinge.pose, crossing(hinge.source, other), face_tolerance))
+      return std::numeric_limits<Real>::infinity();
+    return here.sigma + beyond.sigma +
+           std::sqrt(distance_squared(hinge.pose, hinge.source, other));
+  }
+
+ private:
+  static constexpr Real face_tolerance = sizeof(Real) == 4 ? Real(2e-4) : Real(1e-9);
+  static constexpr Real bend_penalty = 1 + 32 * std::numeric_limits<Real>::epsilon();
+
+  // What the text of the step calls.
+  static Real max(Real a, Real b) { return kernel::max(a, b); }
+  static Real min(Real a, Real b) { return kernel::min(a, b); }
+  static Real sqrt(Real a) { return kernel::sqrt(a); }
+  [[nodiscard]] Index vertex_of(Index t, Index i) const { return tets_[t].corner[i]; }
+  [[nodiscard]] Real squared_edge(Index t, Index edge) const {
     if (!embedded_) return lengths_[t][edge];
     const auto d = points_[tets_[t].corner[tet_edge_ends[edge][1]]] -
                    points_[tets_[t].corner[tet_edge_ends[edge][0]]];
@@ -224,24 +224,31 @@ class PlainSolidRule {
   [[nodiscard]] Real squared_from(Index t, const std::array<double, 4>& b, Index i) const {
     double sum = 0;
     for (Index j = 0; j < 4; ++j)
-      if (j != i) sum += b[j] * static_cast<double>(edge2(t, tet_edge(i, j)));
-    for (Index e = 0; e < 6; ++e)
-      sum -= b[tet_edge_ends[e][0]] * b[tet_edge_ends[e][1]] * static_cast<double>(edge2(t, e));
-    return static_cast<Real>(sum);
+      if (j != i) sum += b[j] * static_cast<double>(squared_edge(t, tet_edge(i, j)));
+    return static_cast<Real>(sum - within(t, b));
   }
-
-  /// Leibniz: the mean squared distance from the corners less that of the centroid.
-  [[nodiscard]] Real centre_distance(Index t, const Label& label) const {
-    Real mean = 0, edges = 0;
-    for (const Real d : label.distance2) mean += d / 4;
-    for (Index e = 0; e < 6; ++e) edges += edge2(t, e);
-    return label.sigma + std::sqrt(std::max(mean - edges / 16, Real(0)));
+  /// The last sum: how much farther corners are in the mean of squares.
+  [[nodiscard]] double within(Index t, const std::array<double, 4>& b) const {
+    double sum = 0;
+    for (Index e = 0; e < 6; ++e)
+      sum += b[tet_edge_ends[e][0]] * b[tet_edge_ends[e][1]] *
+             static_cast<double>(squared_edge(t, e));
+    return sum;
+  }
+  /// From the virtual source to a point of t.
+  [[nodiscard]] Real distance_by(Index t, const Label& label, const std::array<double, 4>& b) const {
+    double sum = -within(t, b);
+    for (std::size_t i = 0; i < 4; ++i) sum += b[i] * static_cast<double>(label.distance2[i]);
+    return static_cast<Real>(std::sqrt(std::max(sum, 0.)));
   }
 
   bool accept(Index t, Index hinge, Label& label, Real sigma, Index source) const {
-    constexpr Real gain = Real(1) - Real(16) * std::numeric_limits<Real>::epsilon();
     label.sigma = sigma;
     label.centre = centre_distance(t, label);
+    return take(t, hinge, label, source);
+  }
+  bool take(Index t, Index hinge, const Label& label, Index source) const {
+    constexpr Real gain = Real(1) - Real(16) * std::numeric_limits<Real>::epsilon();
     if (!(label.centre < distance_or_inf(t) * gain)) return false;
     front_->accept(t, hinge, label, label.centre, source);
     return true;
@@ -254,9 +261,10 @@ class PlainSolidRule {
   Index sentinel_;
   bool embedded_;
   Visibility policy_;
-  bool apex_;
   Front* front_;
   Index inside_ = none;  // the tetrahedron a source lies in, while its faces are crossed
 };
+
+#include "kernel/text_end.inl"
 
 }  // namespace plexway

@@ -68,7 +68,7 @@ class SolidPropagation {
     do {
       spread_all(last_resort(repairs));
       if (front_.out_of_budget()) return;
-    } while (mend(repairs, search) || (!last_resort(repairs) && pass_bends()));
+    } while (mend(repairs, search));
   }
 
   // The parts of run, for those who do more in between.
@@ -96,25 +96,6 @@ class SolidPropagation {
   template <class Other, class Rounds>
   [[nodiscard]] auto expander(Other& front, bool last_resort, const Rounds&) const {
     return Expander<Other>{*this, rule_.on(front), last_resort};
-  }
-
-  /// The same where labels of earlier propagations stay: looks for what to repair only around those
-  /// that changed. `changed` lists them, some repeatedly, and grows meanwhile; it is `complete` or,
-  /// when too much changed, not.
-  template <class Changed>
-  void run_around(const Changed& changed) {
-    std::size_t looked_at = 0;
-    for (bool again = true; again;) {
-      spread(false);
-      if (front_.out_of_budget()) return;
-      again = pass_pinches();
-      if (!rule_.drops()) continue;
-      const std::size_t before = front_.updates();
-      for (const std::size_t end = changed.size(); looked_at < end && changed.complete();)
-        repair_around(changed[looked_at++]);
-      if (!changed.complete()) return run();
-      again |= front_.updates() != before;
-    }
   }
 
   [[nodiscard]] Rule& rule() { return rule_; }
@@ -189,18 +170,6 @@ class SolidPropagation {
     return any;
   }
 
-  /// In solids with cracks vertices near edges where paths bend pass the shortest way to them on,
-  /// as pass_pinches does. Cost: nothing without cracks, else a look at the tetrahedra there.
-  bool pass_bends() {
-    bool any = false;
-    if constexpr (requires { rule_.bends_near(0); }) {
-      if (!mesh_.has_crack()) return false;
-      const auto vertices = static_cast<Index>(mesh_.vertex_count());
-      for (Index v = 0; v < vertices; ++v)
-        if (rule_.bends_near(v)) any |= rule_.pass_bends(v, radius_);
-    }
-    return any;
-  }
 
  private:
   /// Offers that miss a face where no path bends are dropped. Where that leaves a tetrahedron

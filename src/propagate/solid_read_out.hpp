@@ -19,10 +19,7 @@ namespace plexway {
 template <bool kLabels, class Real>
 void start_read_out(std::size_t vertices, WorkspaceState<Real>& workspace) {
   workspace.vertex.assign(vertices, std::numeric_limits<Real>::infinity());
-  if constexpr (kLabels) {
-    workspace.vertex_source.assign(vertices, none);
-    workspace.vertex_tet.assign(vertices, none);
-  }
+  if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
 }
 
 /// Every corner of every reached tetrahedron offers a distance; vertices keep the least. Before,
@@ -38,10 +35,7 @@ void read_out_tets(const TetMesh<Real>& mesh, const Rule& rule, const Front& fro
       const Real d = rule.corner_distance(t, i, workspace.vertex[v]);
       if (!(d < workspace.vertex[v])) continue;
       workspace.vertex[v] = d;
-      if constexpr (kLabels) {
-        workspace.vertex_source[v] = front.source(t);
-        workspace.vertex_tet[v] = t;
-      }
+      if constexpr (kLabels) workspace.vertex_source[v] = front.source(t);
     }
   }
 }
@@ -87,10 +81,7 @@ void read_out_around(const TetMesh<Real>& mesh, const Rule& rule, const Front& f
   for (Index v = begin; v < end; ++v) {
     rule.ask_around(mesh.corners_at(v), [&](Index t, Real distance) {
       workspace.vertex[v] = distance;
-      if constexpr (kLabels) {
-        workspace.vertex_source[v] = front.source(t);
-        workspace.vertex_tet[v] = t;
-      }
+      if constexpr (kLabels) workspace.vertex_source[v] = front.source(t);
     });
   }
 }

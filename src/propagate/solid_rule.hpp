@@ -9,18 +9,18 @@
 
 #include <plexway/complex/tet_mesh.hpp>
 
-#include "propagate/lit_tets.hpp"
-#include "propagate/solid_clear_space.hpp"
 #include "propagate/solid_label.hpp"
-#include "propagate/solid_obstacles.hpp"
 #include "propagate/solid_paths.hpp"
 #include "propagate/solid_sight.hpp"
 
 namespace plexway {
 
+/// Corners of face i, anticlockwise as seen from outside.
+inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
 #include "kernel/text_begin.inl"
 
-/// Visibility::saddles on solids in space: a label is a string from a point around reflex edges,
+/// Visibility::saddles on solids of mixed domains: a label is a string from a point around reflex edges,
 /// which are the only places where paths bend, and is walked through the tetrahedra before it
 /// counts.
 template <class Real, class Front>
@@ -59,50 +59,13 @@ class SolidRule : public SolidPaths<Real> {
     nearest.centre = -1;  // nothing is nearer: never accepted
     front_->put(sentinel_, nearest);
   }
-  /// The same rule on the front of another executor.
-  template <class Other>
-  [[nodiscard]] SolidRule<Real, Other> on(Other& front) const {
-    return SolidRule<Real, Other>(*this, front);
-  }
-
 #include "propagate/solid_walk.inl"
 
-  /// `walk`, but straight over what is known to be clear, which leads to the same tetrahedron.
-  bool go(Index& t, const Point& from, const Point& to) const {
-    constexpr Real worth_it = 3;  // mean edges
-    const Point way = to - from;
-    const Real far = norm(way);
-    if (clear_ == nullptr || !(far > worth_it) || is_lit(t, to)) return walk(t, from, to);
-    Point at = from;
-    for (Real s = 0; s < 1;) {
-      const auto run = clear_->next(from, to, s, worth_it / far);
-      if (run.tet == none) break;
-      if (run.begin > s) {
-        const Point begin = from + run.begin * way;
-        if (!walk(t, at, begin)) return false;
-        at = begin;
-      }
-      const Point end = from + run.end * way;
-      Index there = run.tet;
-      if (!walk(there, tets_[there].centre, end)) break;
-      t = there;
-      at = end;
-      s = run.end;
-    }
-    return walk(t, at, to);
-  }
-  /// Where lines need not be walked, and what they can run into; referred to.
-  void skip(const SolidClearSpace<Real>& clear) { clear_ = clear.empty() ? nullptr : &clear; }
-  void mind(const SolidObstacles<Real>& all) { obstacles_ = all.empty() ? nullptr : &all; }
   /// Vertices, a mark each, that share their place with others, as on the faces of a crack;
   /// referred to. A source there is seen from the side alone that it is on.
   void tell_sides(std::span<const char> torn) { torn_ = torn.empty() ? nullptr : torn.data(); }
-  /// Where to keep what is seen whole; referred to. By one thread.
-  void keep_lit(LitTets<Real>& lit) { lit_ = &lit; }
 
 #include "propagate/solid_step.inl"
-
-#include "propagate/solid_carry.inl"
 
   [[nodiscard]] Real distance(Index t) const { return front_->label(t).centre; }
   /// What a label for t must be below: by more than rounding.
@@ -133,13 +96,6 @@ class SolidRule : public SolidPaths<Real> {
   /// Offers the label of t over all faces but the one it came by.
   [[gnu::always_inline]] void expand(Index t, bool last_resort) const {
     const Index in = static_cast<Index>(front_->hinge(t));
-    if (lit_ != nullptr) {
-      const Label& label = front_->label(t);
-      if (label.bend[0] == none && label.door == none)
-        lit_->look(*mesh_, t, label.source, [&](Index u) {
-          return !front_->reached(u) || same_way(front_->label(u), label);
-        });
-    }
     for (Index i = 0; i < 4; ++i)
       if (i != in) cross(t, i, last_resort);
   }
@@ -252,32 +208,14 @@ class SolidRule : public SolidPaths<Real> {
     }
     if (by != none) offer(by, best);
   }
-  /// The same to any point of u: t, or one that touches it.
-  [[nodiscard]] Real distance_at(Index t, Index u, const Point& q,
-                                 Real known = std::numeric_limits<Real>::infinity()) const {
-    return reach_at(front_->label(t), t, common_point(t, u), u, q, known, nowhere());
-  }
-
-  /// Length of the path from the source of t through a face to that of the neighbour; +inf if none
-  /// passes there.
-  [[nodiscard]] Real meeting_over(Index t, Index face) const {
-    const Index u = tets_[t].across[face] >> TetAcross::tet_shift;
-    const Index* order = tet_face_corners[face];
-    const Point &a = points_[tets_[t].corner[order[0]]], &b = points_[tets_[t].corner[order[1]]],
-                &c = points_[tets_[t].corner[order[2]]];
-    const Point middle = face_middle(t, face);
-    const Point here = seen_over(t, middle, u).eye, there = seen_over(u, middle, t).eye;
-    if (!passes(here, there, a, b, c, face_tolerance)) return std::numeric_limits<Real>::infinity();
-    const Point q = plane_crossing(here, there, a, b, c);
-    return distance_at(t, t, q) + distance_at(u, u, q);
-  }
-
   /// Labels of u offer a path over the edge (v, w) of t, which touches u in that edge only.
   bool pass_edge(Index u, Index t, Index v, Index w, Real known_gain) const {
     const Point q = tets_[t].centre;
     const Point b = bend_point(points_[v], points_[w], seen_from(u, tets_[u].centre).eye, q);
-    const Real walked = distance_at(u, u, b);
-    if (!(walked < std::numeric_limits<Real>::infinity())) return false;
+    constexpr Real infinity = std::numeric_limits<Real>::infinity();
+    const Real walked =
+        reach_at(front_->label(u), u, tets_[u].centre, u, b, infinity, nowhere());
+    if (!(walked < infinity)) return false;
     Label label = point_label(t, b, walked);
     label.centre = label.sigma + norm(q - b);
     if (!(label.centre < to_beat(t) * known_gain)) return false;
@@ -290,8 +228,7 @@ class SolidRule : public SolidPaths<Real> {
 
 #include "propagate/solid_shared.inl"
 
-  /// Fetches what the expansion of t will need, in two steps: t itself, then its neighbours.
-  [[gnu::always_inline]] void prefetch(Index t) const { __builtin_prefetch(&tets_[t]); }
+  /// Fetches what the expansion of t's neighbours will need.
   [[gnu::always_inline]] void prefetch_around(Index t) const {
     for (const Index across : tets_[t].across) {
       __builtin_prefetch(&tets_[across >> TetAcross::tet_shift]);
@@ -300,23 +237,6 @@ class SolidRule : public SolidPaths<Real> {
   }
 
  private:
-  template <class, class>
-  friend class SolidRule;
-  template <class Other>
-  SolidRule(const SolidRule<Real, Other>& rule, Front& front)
-      : Paths(rule.reflex_, rule.own_edges_),
-        mesh_(rule.mesh_),
-        tets_(rule.tets_),
-        points_(rule.points_),
-        list_(rule.list_),
-        sentinel_(rule.sentinel_),
-        any_reflex_(rule.any_reflex_),
-        any_cracks_(rule.any_cracks_),
-        clear_(rule.clear_),
-        obstacles_(rule.obstacles_),
-        torn_(rule.torn_),
-        front_(&front) {}
-
   /// A corner whose string is hidden, its length, and where it leaves the solid.
   struct Hidden {
     Real distance;
@@ -345,18 +265,6 @@ class SolidRule : public SolidPaths<Real> {
   [[nodiscard]] Sight last_bend(const Taut& s) const {
     return {s.at[s.bends], s.extent - norm(taut_end(s) - s.at[s.bends])};
   }
-  /// A point that t has with u, which touches it: the middle of their common corners.
-  [[nodiscard]] Point common_point(Index t, Index u) const {
-    Point sum = {0, 0, 0};
-    Real count = 0;
-    for (const Index v : tets_[t].corner)
-      if (std::find(tets_[u].corner, tets_[u].corner + 4, v) != tets_[u].corner + 4) {
-        sum = sum + points_[v];
-        ++count;
-      }
-    return t == u || count == 0 ? tets_[t].centre : Real(1) / count * sum;
-  }
-
   bool enter(Index t, std::size_t face, const Label& label, Index source) const {
     if (!(label.centre < to_beat(t))) return false;
     front_->accept(t, face, label, label.centre, source);
@@ -417,26 +325,10 @@ class SolidRule : public SolidPaths<Real> {
     return tets_[t].across[i] & TetAcross::face_mask;
   }
   Index no_tet() const { return sentinel_; }
-  [[gnu::always_inline]] bool is_lit(Index t, const Point& p) const {
-    return lit_ != nullptr && lit_->by(t, p);
-  }
-  [[gnu::always_inline]] bool is_clear(Index edge, const Point& p, const Point& q) const {
-    return obstacles_ != nullptr && obstacles_->clear(edge, reflex_, p, q);
-  }
-  /// A tetrahedron to begin lines in that go from beside an edge; false if none is known.
-  bool stand_beside(Index edge, const Point& p, Index& t) const {
-    if (obstacles_ == nullptr || edge >= own_edges_) return false;
-    const Edge& e = reflex_[edge];
-    t = obstacles_->beside(edge, e, dot(p - e.end[0], e.direction));
-    return t != none && walk(t, tets_[t].centre, p);
-  }
   [[gnu::always_inline]] Index first_reflex(Index t) const { return tets_[t].reflex; }
   [[gnu::always_inline]] Index reflex_entry(Index e) const { return list_[e]; }
   static Index entry_edge(Index entry) { return entry >> ReflexEntry::edge_shift; }
   static bool entry_is_last(Index entry) { return (entry & ReflexEntry::last) != 0; }
-  [[gnu::always_inline]] bool any_lit(const Point& p) const {
-    return lit_ != nullptr && lit_->any_by(p);
-  }
   bool any_reflex() const { return any_reflex_; }
   bool any_cracks() const { return any_cracks_; }
   [[gnu::always_inline]] bool reached(Index t) const { return front_->reached(t); }
@@ -457,9 +349,6 @@ class SolidRule : public SolidPaths<Real> {
   const Index* list_;
   Index sentinel_;
   bool any_reflex_, any_cracks_;
-  const SolidClearSpace<Real>* clear_ = nullptr;
-  const SolidObstacles<Real>* obstacles_ = nullptr;
-  LitTets<Real>* lit_ = nullptr;
   const char* torn_ = nullptr;
   Front* front_;
 };

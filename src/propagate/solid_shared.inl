@@ -22,14 +22,10 @@ struct Sight {
   if (find_sight(t, tets_[t].centre, t, within(t, q), q, s)) return last_bend(s);
   return {tets_[t].centre, front_->label(t).centre};
 }
-/// The same on the way to the centre of a neighbour over the face with that middle.
-[[nodiscard]] Sight seen_over(Index t, const Point& middle, Index u) const {
-  return sight(t, middle, u, tets_[u].centre, tets_[u].centre);
-}
 /// Is corner i of u in a straight line from a point of t? (On a crack another may lie there.)
 [[nodiscard]] bool sees(Index t, const Point& from, Index u, Index i) const {
   const Index v = tets_[u].corner[i];
-  return go(t, from, within(u, points_[v])) &&
+  return walk(t, from, within(u, points_[v])) &&
          std::find(tets_[t].corner, tets_[t].corner + 4, v) != tets_[t].corner + 4;
 }
 
@@ -120,7 +116,7 @@ bool enter_edge(Index t, std::size_t face, Index ring, const Point& eye, Real si
     const Real depth = s.bends == 0 && norm(end - walked.at[0]) < 16 * nudge ? Real(.3) : nudge;
     const auto inside = [&](Index t, const Point& p) { return p + depth * (tets_[t].centre - p); };
     hit = {start, 0};
-    there = go(hit.tet, inside(start, s.at[0]),
+    there = walk(hit.tet, inside(start, s.at[0]),
                s.bends == 0 ? inside(u, taut_end(s)) : beside(reflex_edge(s.edge[0]), s.at[1]));
   }
   if (there) return true;
@@ -129,5 +125,23 @@ bool enter_edge(Index t, std::size_t face, Index ring, const Point& eye, Real si
   leg = hit.leg;
   return false;
 }
-/// The tetrahedron at a vertex that a line to a point begins in.
-[[nodiscard]] Index begin_at(Index vertex, const Point& to) const { return facing(vertex, to); }
+/// Which tetrahedron at a vertex does the line to a point go through, or nearest to?
+[[nodiscard]] Index begin_at(Index vertex, const Point& to) const {
+  const Point& at = points_[vertex];
+  const Point g = to - at;
+  Index found = none;
+  Real best = -std::numeric_limits<Real>::infinity();
+  for (const Index c : mesh_->corners_at(vertex)) {
+    const Index* corner = tets_[c / 4].corner;
+    const Point a = points_[corner[(c + 1) & 3]] - at, b = points_[corner[(c + 2) & 3]] - at,
+                d = points_[corner[(c + 3) & 3]] - at;
+    const Point bd = normal_to(b, d);
+    const Real side = dot(a, bd) < 0 ? Real(-1) : Real(1);
+    const Real wa = side * dot(g, bd), wb = side * dot(g, normal_to(d, a)),
+               wd = side * dot(g, normal_to(a, b));
+    const Real least = min(min(wa, wb), wd) / (abs(wa) + abs(wb) + abs(wd));
+    if (least > best) best = least, found = c / 4;
+    if (best >= 0) break;
+  }
+  return found == none ? mesh_->corners_at(vertex)[0] / 4 : found;
+}

@@ -4,13 +4,8 @@
 //   first_reflex(t), reflex_entry(e), entry_edge(entry), entry_is_last(entry)
 //   any_reflex()                     are there reflex edges
 //   any_cracks()                     and faces of the boundary that lie on each other
-//   go(t, from, to)                  `walk`, perhaps by a shorter way to the same tetrahedron
 //   reached(t), label_of(t)          what is known
 //   same_way(label, label)           do they have the same S and bends?
-//   stand_beside(edge, p, t)         finds a tetrahedron t to begin lines in that go from p, beside
-//                                    an edge
-//   is_clear(edge, p, q)             is the line from p, a point of that reflex edge or of none, to q
-//                                    known to be free?
 
 HINGE_CONST Real face_tolerance = Real(0.1);
 
@@ -59,20 +54,6 @@ HINGE_METHOD Point beside(HINGE_IN(Edge) e, HINGE_IN(Point) bend) HINGE_READS {
   return e.end[0] + clamp(along, off, e.extent - off) * e.direction + off * e.solid;
 }
 
-/// Legs of a string that are known to be free, a bit each.
-int clear_legs(HINGE_IN(Taut) s, HINGE_IN(Label) label) HINGE_READS {
-  if (label.door != none) return 0;
-  if (s.bends == 0) return is_clear(none, s.at[0], s.at[1]) ? 1 : 0;
-  int clear = 0;
-  for (int n = 0; n <= HINGE_ROLLED(s.bends); ++n) {
-    // Seen from the one end or the other.
-    bool known = n > 0 && is_clear(s.edge[max(n, 1) - 1], s.at[n], s.at[n + 1]);
-    if (!known && n < s.bends) known = is_clear(s.edge[n], s.at[n + 1], s.at[n]);
-    if (known) clear |= 1 << n;
-  }
-  return clear;
-}
-
 /// Where a leg to or from a bend is walked to, if `other` is where the string is on the other side
 /// of it. At the end of a crack it comes along one face and goes along the other one, or it would
 /// not bend: there it is walked on the side where `other` is not.
@@ -92,35 +73,14 @@ HINGE_METHOD Point within(Index u, HINGE_IN(Point) q) HINGE_READS {
   return q + nudge * (centre_of(u) - q);
 }
 
-/// Walks the string back from its end, seen as `end` in tetrahedron u, to the source, but for legs
-/// that are known to be free.
+/// Walks the string back from its end, seen as `end` in tetrahedron u, to the source.
 bool is_free(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u, HINGE_IN(Point) end,
              HINGE_INOUT(Hit) hit) HINGE_READS {
   Point from = end;
   hit.tet = u;
   hit.leg = s.bends;
-  int clear = clear_legs(s, label);
-  bool there = true;  // hit.tet is where `from` is
   for (int n = 0; n <= HINGE_ROLLED(s.bends); ++n) {
     hit.leg = s.bends - n;
-    if ((clear >> hit.leg & 1) != 0) {
-      there = false;
-      continue;
-    }
-    if (!there) {
-      Index edge = s.edge[hit.leg];
-      from = beside(reflex_edge(edge), s.at[hit.leg + 1],
-                    hit.leg + 1 == s.bends ? end : s.at[hit.leg + 2]);
-      there = stand_beside(edge, from, hit.tet);
-      if (!there) {  // then all the way
-        clear = 0;
-        from = end;
-        hit.tet = u;
-        there = true;
-        n = -1;
-        continue;
-      }
-    }
     Point to = s.at[hit.leg];
     Point turn = to;  // at the end of a crack: and on from there
     bool turns = false;
@@ -147,7 +107,7 @@ bool is_free(HINGE_IN(Taut) s, HINGE_IN(Label) label, Index u, HINGE_IN(Point) e
       to = within(label.door - beside_door, to);
     }
     for (int stop = 0; stop < HINGE_ROLLED(2); ++stop) {
-      if (!go(hit.tet, from, to)) return hit.leg == 0 && comes_in(label, hit.tet);
+      if (!walk(hit.tet, from, to)) return hit.leg == 0 && comes_in(label, hit.tet);
       from = to;
       if (last || !turns) break;
       to = turn;

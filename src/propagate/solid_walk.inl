@@ -6,8 +6,6 @@
 //   face_corner_number(face, k)      which corners those of a face are
 //   neighbour(t, i), face_beyond(t, i)  over face i, or no_tet(); the number of the face there
 //   component(p, i)                  coordinate i of a point
-//   is_lit(t, p)                     is all of t known to be seen from p?
-//   any_lit(p)                       is any, perhaps?
 
 /// So far from an edge, into the solid, strings are walked: then a line along a face of an obstacle
 /// does not cross it by rounding. In mean edges.
@@ -77,11 +75,8 @@ HINGE_METHOD Point point_inside(Index t) HINGE_READS {
 HINGE_CONST Real face_missed = Real(1e-2);
 
 /// From a point of t straight to another; t is then the tetrahedron it came to. False if that is
-/// outside of the solid, or behind a part of the boundary. Where a tetrahedron on the way is known to
-/// be seen from there it is not gone on.
+/// outside of the solid, or behind a part of the boundary.
 bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) begin, HINGE_IN(Point) to) HINGE_READS {
-  bool lit = any_lit(to);
-  if (lit && is_lit(t, to)) return true;
   Point from = begin + inset * (point_inside(t) - begin);
   Point g = to - from;
   Real far = norm(g);
@@ -147,13 +142,6 @@ bool walk(HINGE_INOUT(Index) t, HINGE_IN(Point) begin, HINGE_IN(Point) to) HINGE
     }
     Index j = face_beyond(t, face);
     t = next;
-    if (lit && is_lit(t, to)) {
-      // If it is in there: led around an edge it may be beside it.
-      Real wa = turn_of(b, c);
-      Real wb = turn_of(c, a);
-      Real wc = turn_of(a, b);
-      if (min(min(wa, wb), wc) >= -face_missed * abs(wa + wb + wc)) return true;
-    }
     if (HINGE_RARE(t == passed)) return false;
     if ((steps & (steps - 1)) == 0) passed = t;
     Seen d = seen_along(line, from, corner_of(t, j));

@@ -1,6 +1,7 @@
 #include <plexway/propagate/workspace.hpp>
 
 #include "propagate/workspace_state.hpp"
+#include "strings/solid_strings.hpp"
 
 namespace plexway {
 
@@ -18,7 +19,8 @@ Workspace<Real>& Workspace<Real>::operator=(Workspace&&) noexcept = default;
 
 template <class Real>
 std::size_t Workspace<Real>::bytes() const {
-  return state_ ? state_->bytes() : 0;
+  if (!state_) return 0;
+  return state_->bytes() + (state_->strings ? state_->strings->bytes() : 0);
 }
 
 template <class Real>

@@ -9,7 +9,6 @@
 
 #include "propagate/front.hpp"
 #include "propagate/label_storage.hpp"
-#include "propagate/lit_tets.hpp"
 #include "propagate/lowering_rooms.hpp"
 #include "propagate/piece_memory.hpp"
 #include "propagate/plain_label.hpp"
@@ -17,12 +16,13 @@
 #include "propagate/room.hpp"
 #include "propagate/saddle_label.hpp"
 #include "propagate/simplex_label.hpp"
-#include "propagate/solid_border_memory.hpp"
 #include "propagate/solid_label.hpp"
 #include "propagate/visit_marks.hpp"
 #include "propagate/window_memory.hpp"
 
 namespace plexway {
+
+class SolidStrings;
 
 /// All that a propagation changes, in the open.
 template <class Real>
@@ -42,9 +42,7 @@ struct WorkspaceState {
   PieceMemory<Real> pieces;                       ///< likewise, on surfaces
   std::vector<Real> vertex;                       ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;               ///< its labels
-  std::vector<Index> vertex_tet;                  ///< in solids: with which tetrahedron's label
-  SolidBorderMemory<Real> borders;                ///< in solids, from several sources
-  LitTets<Real> lit;                              ///< in solids where paths bend, by one thread
+  std::shared_ptr<SolidStrings> strings;          ///< in solids: strings/solid_strings.hpp
   std::vector<Index> corners;                     ///< around one vertex
   std::unique_ptr<LoweringRooms<Real>> lowering;  ///< read_out_edges
   ///@{
@@ -72,8 +70,7 @@ struct WorkspaceState {
            saddles.count * sizeof(SaddleLabel<Real>) + plain.count * sizeof(PlainLabel<Real>) +
            solids.count * sizeof(SolidLabel<Real>) +
            plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +
-           windows.bytes() + of(vertex) + of(vertex_source) + of(vertex_tet) + borders.bytes() +
-           lit.bytes() + of(corners) + (lowering ? sizeof(*lowering) + lowering->bytes() : 0) +
+           windows.bytes() + of(vertex) + of(vertex_source) + of(corners) + (lowering ? sizeof(*lowering) + lowering->bytes() : 0) +
            front.capacity * 2 * sizeof(Index) + of(front.heap) + team.bytes() + pieces.bytes();
   }
 };

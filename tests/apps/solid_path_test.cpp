@@ -1,6 +1,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include <plexway/io/tets.hpp>
@@ -9,10 +10,13 @@
 #include "complex/test_solids.hpp"
 #include "complex/test_wires.hpp"
 #include "exact_data.hpp"
+#include "propagate/cracked_solid.hpp"
 
 namespace plexway::testing::solid_path_test {
 
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double flat(const Position& p, double x, double y) { return std::hypot(p[0] - x, p[1] - y); }
 
@@ -121,6 +125,63 @@ TEST_CASE("paths in solids do not depend on where the solid lies") {
     check_path(path, s.positions, s.tets, 1e4);
     CHECK(path.length == Approx(30 * other.trace(v).length).epsilon(1e-6).margin(1e-9));
   }
+}
+
+TEST_CASE("paths in solids are as long as distances say, to vertices and to points") {
+  const samples::CornerDomain plans[] = {
+      one_slit,
+      two_slits,
+      {"", {{.25, .375, .25, .375}, {.25, .375, .75, .875}, {.625, .875, .625, .875}}, {.25, 1}},
+      {"", {{.125, .375, .25, .375}, {.125, .375, .75, .875}, {.625, .875, .25, .375}}, {0, .25}}};
+  std::mt19937 random(7);
+  for (const auto& plan : plans) {
+    const Cracked cracked(plan, .16, 3, .3);
+    const TetMesh<double> mesh(cracked.places, cracked.tets);
+    PathField field(mesh, cracked.places);
+    for (int k = 0; k < 4; ++k) {
+      Index source = 0;
+      do source = below(random, cracked.floor());
+      while (mesh.corners_at(mesh.inside_vertex(source)).empty());
+      const auto& found = field.solve(Serial{}, PointSource::at(source));
+      CHECK(found.accuracy == Accuracy::accurate());
+      for (Index v = 0; v < cracked.places.size(); ++v) {
+        if (!(found.distance[v] < infinity)) continue;
+        const Path path = field.trace(v);
+        CAPTURE(plan.blocks.size(), source, v);
+        check_path(path, cracked.places, cracked.tets);
+        CHECK(path.length == Approx(found.distance[v]).epsilon(1e-12).margin(1e-14));
+      }
+      for (int n = 0; n < 100; ++n) {
+        const PointSource target = anywhere(cracked.tets, random);
+        const Position at = place(cracked.places, cracked.tets[target.simplex], target.barycentric);
+        const double exact = cracked.exact({at[0], at[1], at[2]})[source];
+        CAPTURE(plan.blocks.size(), source, n);
+        CHECK(field.at(target) == Approx(exact).epsilon(1e-6));
+        const Path path = field.trace(target);
+        check_path(path, cracked.places, cracked.tets);
+        CHECK(path.length == Approx(field.at(target)).epsilon(1e-12));
+      }
+    }
+  }
+}
+
+TEST_CASE("after labels paths in solids are still the shortest") {
+  const Solid s = walled(8);
+  const auto mesh = s.mesh<double>();
+  PathField by_strings(mesh, s.positions), by_labels(mesh, s.positions);
+  const PointSource sources[] = {PointSource::at(5), PointSource::in(200, {.1, .2, .3, .4})};
+  by_strings.solve(Serial{}, sources);
+  PropagateOptions options;
+  options.accuracy = Accuracy::fast();
+  by_labels.solve(OpenMP{2}, sources, options);
+  CHECK(by_labels.distances().accuracy == Accuracy::fast());
+  for (Index v = 0; v < s.positions.size(); v += 7) {
+    const Path path = by_labels.trace(v);
+    CHECK(path.length == by_strings.trace(v).length);
+    CHECK(path.source == by_strings.distances().label[v]);
+  }
+  CHECK(by_labels.gradient() == by_strings.gradient());
+  CHECK(by_labels.simplex_labels() == by_strings.simplex_labels());
 }
 
 TEST_CASE("paths in solids pass where parts touch") {

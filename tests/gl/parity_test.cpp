@@ -101,15 +101,12 @@ TEST_CASE("a device and a team do the same rounds on real surfaces", "[gl]") {
 TEST_CASE("a device and a team do the same rounds in solids, and agree in wireframes", "[gl]") {
   const auto context = device();
   if (!context || !openmp_built()) return;
-  // Pipes where nothing is repaired: a team repairs one tetrahedron after the other, a device all
-  // at once.
   for (const Solid& s : {solid_cube(6), l_shape(10), walled(10), edge_touch(5), vertex_touch(5),
                          pipe(16, 6, 4), pipe(40, 3, 10, 0.1)})
     for (const std::size_t count : {1u, 6u})
       for (unsigned seed = 1; seed < 4; ++seed) {
         CAPTURE(s.tets.size(), count, seed);
         const auto mesh = s.mesh<float>();
-        // A string around several edges is pulled by other roundings now and then: the last digit.
         Together(mesh, some_sources(s.positions.size(), count, seed)).check(*context, 1e-9, 1.2e-7);
       }
   for (unsigned seed = 1; seed < 5; ++seed) {

@@ -1,9 +1,10 @@
-// Solids on a GL device against closed forms, exact answers and the serial executor.
+// Solids on a GL device against closed forms, exact answers and the serial executor, by the literal
+// step.
 //
-// Around curved obstacles the order of updates decides which of several nearly equal ways a label
-// takes; no order is right. How far distances move with it is measured by the serial executor with
-// other schedules. Where that is less than 1e-4 (mean) and 1e-3 (worst), the device must be as
-// close as that; elsewhere within twice of it.
+// The order of updates decides which of several nearly equal ways a label takes; no order is right.
+// How far distances move with it is measured by the serial executor with other schedules. Where
+// that is less than 1e-4 (mean) and 1e-3 (worst), the device must be as close as that; elsewhere
+// within twice of it.
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -14,9 +15,9 @@
 #include <plexway/solve.hpp>
 
 #include "gl/device.hpp"
-#include "propagate/cracked_solid.hpp"
 #include "propagate/solid_closed_forms.hpp"
 #include "propagate/solid_truth.hpp"
+#include "with_accuracy.hpp"
 
 namespace plexway::testing::solid_test {
 
@@ -25,7 +26,8 @@ namespace {
 using Sources = std::span<const PointSource>;
 
 std::vector<float> serial(const TetMesh<float>& mesh, Sources sources,
-                          const PropagateOptions& options = {}) {
+                          PropagateOptions options = {}) {
+  options.accuracy = Accuracy::fast();
   return solve(Serial{}, mesh, sources, options).distance;
 }
 
@@ -72,7 +74,7 @@ void compare_with_serial(const Solid& s, std::size_t count, unsigned turns) {
   DistanceField<float> field;
   for (unsigned turn = 0; turn < turns; ++turn) {
     const auto sources = some_sources(s, count, turn);
-    const auto known = solve(Serial{}, mesh, Sources(sources));
+    const auto known = solve(Serial{}, mesh, Sources(sources), by_labels());
     solve(GL{}, mesh, sources, {}, workspace, field);
     check_close(difference(known.distance, field.distance),
                 spread_of(mesh, sources, known.distance));
@@ -98,7 +100,7 @@ double check_errors(const Solid& s, Index source, const std::vector<double>& exa
     worst = std::max(worst, compare(serial(mesh, Sources(&at, 1), options), exact).max);
   }
   if (openmp_built())
-    worst = std::max(worst, compare(solve(OpenMP{.threads = 1}, mesh, at).distance, exact).max);
+    worst = std::max(worst, compare(solve(OpenMP{.threads = 1}, mesh, at, by_labels()).distance, exact).max);
   CAPTURE(source, e.mean, e.max, worst);
   CHECK(e.fits);
   CHECK(e.max <= worst * (1 + 1e-5));
@@ -209,25 +211,21 @@ TEST_CASE("solids on a device: radius, budget, what is refused", "[gl]") {
   options = {};
   options.visibility = Visibility::centroid;
   CHECK_THROWS_AS(solve(GL{}, mesh, source, options), UsageError);
-  const TetMesh<float> metric(s.positions.size(), s.tets, s.lengths());
-  CHECK_THROWS_WITH(solve(GL{}, metric, source), Catch::Contains("needs coordinates"));
+  options = {};
+  options.accuracy = Accuracy::accurate();
+  CHECK_THROWS_WITH(solve(GL{}, mesh, source, options), Catch::Contains("by the accuracy fast"));
 }
 
-TEST_CASE("on a device a source on a crack is refused, whatever other fields start from", "[gl]") {
-  if (!device()) return;
-  const Cracked cracked(one_slit, 0.16, 3, 0.3);
-  const TetMesh<float> mesh(cracked.places, cracked.tets);
-  GLWorkspace workspace;
-  for (Index v = 0; v < cracked.floor(); ++v)
-    for (Index w = 0; w < v; ++w) {
-      if (cracked.on_lip[v] == 0 || cracked.places[v] != cracked.places[w]) continue;
-      const std::array sources = {PointSource::at(v), PointSource::at(w)};  // both sides
-      CHECK_NOTHROW(static_cast<void>(solve(GL{}, mesh, Sources(sources))));
-      std::vector<float> each(2 * mesh.vertex_count());
-      CHECK_THROWS_AS(solve_each(GL{}, mesh, Sources(sources), {}, workspace, each), UsageError);
-      return;
-    }
-  FAIL("no two vertices in one place");
+TEST_CASE("a solid by lengths alone on a device", "[gl]") {
+  const auto context = device();
+  if (!context) return;
+  for (const Solid& s : {solid_cube(7), l_shape(8), edge_touch(5)}) {
+    const TetMesh<float> mesh(s.positions.size(), s.tets, s.lengths());
+    const PointSource sources[] = {PointSource::at(0), PointSource::in(3, {.1, .2, .3, .4})};
+    const auto known = serial(mesh, sources);
+    check_close(difference(known, solve(GL{}, mesh, sources).distance),
+                spread_of(mesh, sources, known));
+  }
 }
 
 TEST_CASE("one field a source in a solid on a device", "[gl]") {

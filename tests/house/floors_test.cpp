@@ -24,6 +24,7 @@ const std::map<std::string, int> floor_of_name = {
     {"metric", 1},
     {"domain", 1},
     {"propagate", 2},
+    {"strings", 2},
     {"executors", 3},
     {"executors.hpp", 3},
     {"solve.hpp", 3},

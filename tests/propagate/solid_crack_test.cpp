@@ -1,5 +1,5 @@
-// Sources on the faces of cracks, which are refused, and beside them, which are not. On a crack two
-// faces of the boundary lie on each other, and coordinates do not tell one from the other.
+// Sources on the faces of cracks and beside them. On a crack two faces of the boundary lie on each
+// other, and coordinates do not tell one from the other: its vertices do.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,6 @@
 #include "propagate/solving.hpp"
 
 namespace plexway::testing::solid_crack_test {
-
 namespace {
 
 template <class Domain, class Sources>
@@ -32,31 +31,24 @@ std::string refusal(const Domain& domain, const Sources& sources) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("sources on a crack are refused, all others are right", "", float, double) {
+TEMPLATE_TEST_CASE("sources on a crack and all others are right", "", float, double) {
   constexpr bool single = std::is_same_v<TestType, float>;
   for (const auto& plan : {one_slit, two_slits}) {
     const Cracked cracked(plan, 0.16, 3, 0.3);
     const TetMesh<TestType> solid(cracked.places, cracked.tets);
-    std::size_t refused = 0;
+    std::size_t on = 0;
     for (Index v = 0; v < cracked.floor(); ++v) {
-      const std::string said = refusal(solid, PointSource::at(v));
-      CAPTURE(v, said);
-      if (cracked.on_lip[v] != 0) {
-        ++refused;
-        CHECK(said.find("source vertex " + std::to_string(v) + " lies on a crack") == 0);
-        CHECK_THROWS_AS(static_cast<void>(solve(OpenMP{2}, solid, PointSource::at(v))), UsageError);
-        continue;
-      }
-      CHECK(said.empty());
-      if (v % 5 != 0) continue;
-      const Errors e = compare(solve(Serial{}, solid, PointSource::at(v)).distance,
-                               cracked.exact(cracked.beside[v]));
-      CAPTURE(e.mean, e.max, e.below);
+      if (cracked.on_lip[v] == 0 && v % 5 != 0) continue;
+      on += cracked.on_lip[v] != 0;
+      const auto field = solve(Serial{}, solid, PointSource::at(v));
+      const Errors e = compare(field.distance, cracked.exact(cracked.beside[v]));
+      CAPTURE(v, e.mean, e.max, e.below);
       CHECK(e.fits);
       CHECK(e.max <= (single ? 1e-4 : 1e-6));
       CHECK(e.below >= (single ? -1e-4 : -1e-7));
+      CHECK(solve(OpenMP{2}, solid, PointSource::at(v)).distance == field.distance);
     }
-    CHECK(refused > 6);
+    CHECK(on > 6);
   }
 }
 
@@ -74,10 +66,10 @@ TEST_CASE("at the end of a crack a source sees both sides") {
   CHECK(e.max <= 1e-6);
 }
 
-TEST_CASE("points in tetrahedra at a crack: as near as a fiftieth of an edge they are refused") {
+TEST_CASE("points in tetrahedra at a crack are right as near as they are") {
   const Cracked cracked(two_slits, 0.16, 3, 0.3);
   const TetMesh<double> solid(cracked.places, cracked.tets);
-  std::size_t near = 0, beside = 0;
+  std::size_t near = 0;
   for (Index t = 0; t < cracked.tets.size(); t += 2) {
     const auto& tet = cracked.tets[t];
     const auto corner = std::find_if(tet.begin(), tet.end(), [&](Index v) {
@@ -89,27 +81,20 @@ TEST_CASE("points in tetrahedra at a crack: as near as a fiftieth of an edge the
       std::array<double, 4> b;
       b.fill(share / 4);
       b[at] += 1 - share;
-      const PointSource source = PointSource::in(t, b);
-      const std::string said = refusal(solid, source);
-      CAPTURE(t, share, said);
-      if (share < .01) {
-        CHECK(said.find("a source in tet " + std::to_string(t) + " lies on a crack") == 0);
-        ++near;
-        continue;
-      }
       samples::Point from = {0, 0, 0};
       for (std::size_t i = 0; i < 4; ++i)
         for (std::size_t k = 0; k < 3; ++k) from[k] += b[i] * cracked.places[tet[i]][k];
-      if (!said.empty()) continue;  // flat tetrahedra along the crack
-      ++beside;
-      const Errors e = compare(solve(Serial{}, solid, source).distance, cracked.exact(from));
-      CAPTURE(e.mean, e.max, e.below);
-      CHECK(e.max <= 1e-6);
+      // Some have all corners along the crack: the truth does not know on which side.
+      if (std::abs(from[0] - cracked.places[*corner][0]) < 1e-6) continue;
+      ++near;
+      const Errors e =
+          compare(solve(Serial{}, solid, PointSource::in(t, b)).distance, cracked.exact(from));
+      CAPTURE(t, share, e.mean, e.max, e.below);
+      CHECK(e.max <= (share < .01 ? 5e-6 : 1e-6));  // the truth has its sides 2e-9 apart
       CHECK(e.below >= -1e-7);
     }
   }
-  CHECK(near > 10);
-  CHECK(beside > 10);
+  CHECK(near > 20);
 }
 
 TEST_CASE("sources on both sides of a crack do no harm") {
@@ -126,16 +111,9 @@ TEST_CASE("sources on both sides of a crack do no harm") {
   const auto field = solve(Serial{}, solid, all);
   const Errors e = compare(field.distance, exact);
   CAPTURE(e.mean, e.max, e.below);
-  // Nothing is too near; between sources a tetrahedron's one label makes it longer, crack or not.
   CHECK(e.below >= -1e-7);
-  CHECK(e.mean <= 2e-3);
-  CHECK(e.max <= 6e-2);
+  CHECK(e.max <= 1e-6);
   for (const PointSource& source : all) CHECK(field.distance[source.vertex] == 0);
-  // A later one on the other side is not enough, nor none.
-  all.back().offset = 1;
-  CHECK_FALSE(refusal(solid, all).empty());
-  all.pop_back();
-  CHECK_FALSE(refusal(solid, all).empty());
 }
 
 TEST_CASE("solids without cracks take sources anywhere, also where they touch another") {

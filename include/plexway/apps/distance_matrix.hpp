@@ -36,8 +36,7 @@ struct DistanceMatrix {
 /// counts. Offsets are not asked for (UsageError).
 ///
 /// Throws UsageError for no points or a point that is not in the domain, and Cancelled when
-/// `progress`, called with the share that is done, returns false. On surfaces and clouds the
-/// accuracy is that of `solve`.
+/// `progress`, called with the share that is done, returns false. The accuracy is that of `solve`.
 /// UsageError for a surface with refracting edges, too.
 template <class Real>
 [[nodiscard]] DistanceMatrix distance_matrix(Serial, const TriangleMesh<Real>& mesh,
@@ -46,9 +45,10 @@ template <class Real>
                                              Accuracy accuracy = Accuracy::usual());
 /// In a solid, which must have coordinates (UsageError).
 template <class Real>
-[[nodiscard]] DistanceMatrix distance_matrix(
-    Serial, const TetMesh<Real>& mesh, std::span<const PointSource> points,
-    const std::function<bool(double share)>& progress = {});
+[[nodiscard]] DistanceMatrix distance_matrix(Serial, const TetMesh<Real>& mesh,
+                                             std::span<const PointSource> points,
+                                             const std::function<bool(double share)>& progress = {},
+                                             Accuracy accuracy = Accuracy::usual());
 /// Among points of a cloud, by number.
 template <class Real>
 [[nodiscard]] DistanceMatrix distance_matrix(Serial, const PointCloud<Real>& cloud,

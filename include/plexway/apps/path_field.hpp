@@ -77,7 +77,7 @@ class PathField<Domain<Real>> {
       field_ = plexway::solve(executor, *domain_, there, options);
     }
     const bool fast = field_.accuracy == Accuracy::fast();
-    took(options.visibility, !keeps ? Kept::nothing : fast ? Kept::labels : Kept::windows);
+    took(options, !keeps ? Kept::nothing : fast ? Kept::labels : Kept::windows);
     return field_;
   }
   /// From one source.
@@ -158,10 +158,10 @@ class PathField<Domain<Real>> {
             const Domain<Real>& given, std::span<const std::array<double, 3>> positions);
   [[nodiscard]] Support support_of(Purpose purpose) const;
   /// What the workspace has of the field.
-  enum class Kept { nothing, labels, windows };
+  enum class Kept { nothing, labels, windows };  // in solids strings
   /// Where they are in the domain.
   std::span<const PointSource> take(std::span<const PointSource> sources);
-  void took(Visibility visibility, Kept kept);
+  void took(const PropagateOptions& options, Kept kept);
   [[nodiscard]] PointSource checked(const PointSource& point) const;
   [[nodiscard]] std::span<const PointSource> given_sources() const {
     return delaunay_ ? given_sources_ : sources_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <plexway/complex/detail/identity.hpp>
+#include <plexway/complex/detail/on_demand.hpp>
 #include <plexway/complex/detail/rows.hpp>
 #include <plexway/complex/detail/tet_record.hpp>
 #include <plexway/complex/detail/unfilled.hpp>
@@ -94,7 +95,7 @@ class TetMesh {
   [[nodiscard]] bool embedded() const { return summary_.embedded; }
   /// The mean edge, in the input's unit.
   [[nodiscard]] double unit() const { return summary_.mean_edge; }
-  /// Bytes this complex holds.
+  /// Bytes this complex holds, with what solves have made of it.
   [[nodiscard]] std::size_t bytes() const;
 
   // What follows serves the floors above and uses the numbers inside.
@@ -147,6 +148,8 @@ class TetMesh {
   [[nodiscard]] std::span<const Index> pinched_edge_tets() const { return pinched_edge_tets_; }
   /// Of the content: a copy has the same, everything else another (Identity).
   [[nodiscard]] std::uint64_t identity() const { return identity_.value(); }
+  /// What strings know of it (src/strings).
+  [[nodiscard]] const OnDemand& space() const { return space_; }
   ///@}
 
  private:
@@ -158,6 +161,7 @@ class TetMesh {
 
   SolidSummary summary_;
   Identity identity_;
+  OnDemand space_;
   Rows<TetRecord<Real>, Unfilled<TetRecord<Real>>> tets_;
   Rows<Vector3<Real>> points_;
   Rows<std::array<Real, 6>> lengths_;

@@ -14,8 +14,6 @@ namespace plexway {
   X(gl_domain,                                                                                     \
     "the executor GL takes surfaces, solids, wireframes and clouds: use the executor Serial")      \
   X(gl_double, "the executor GL computes in single precision: make the domain of float")           \
-  X(gl_lengths,                                                                                    \
-    "the executor GL needs coordinates of a solid, not only lengths: use the executor Serial")     \
   X(gl_refraction,                                                                                 \
     "the executor GL does not refract paths: use the executor Serial, or build the surface with "  \
     "one length an edge")                                                                          \
@@ -60,9 +58,6 @@ namespace plexway {
     "an edge")                                                                                     \
   X(search_visibility, "searches that end early know the default visibility only: saddles")        \
   X(samples_domain, "points are chosen on surfaces, solids and clouds: make one of these")         \
-  X(samples_crack,                                                                                 \
-    "points that are spread over a solid with a crack would be seen through it: move the two "     \
-    "sides of the crack apart")                                                                    \
   X(samples_lengths,                                                                               \
     "points are chosen in solids that have coordinates: build the solid with them")                \
   X(isolines_domain,                                                                               \
@@ -125,8 +120,14 @@ namespace plexway {
   X(shapes_visibility,                                                                             \
     "curves and triangles as sources need labels with limits: use the policy saddles")             \
   X(windows_domain,                                                                                \
-    "accuracies other than fast are for surfaces and clouds: other domains have one, ask for "     \
-    "fast")                                                                                        \
+    "accuracies other than fast are for surfaces, clouds and solids: other domains have one, ask " \
+    "for fast")                                                                                    \
+  X(strings_gl, "the executor GL solves solids by the accuracy fast: use that, or another executor") \
+  X(strings_lengths,                                                                               \
+    "a solid by lengths alone has no straight lines in space to measure: use the accuracy fast")   \
+  X(strings_visibility,                                                                            \
+    "strings know what they see: use the policy saddles, or the accuracy fast")                    \
+  X(strings_exact, "solids have no accuracy exact: ask for accurate")                              \
   X(windows_gl,                                                                                    \
     "the executor GL keeps one label a triangle: use the executor Serial, or the accuracy fast")   \
   X(windows_refraction, "windows are not refracted: use the accuracy fast")                        \

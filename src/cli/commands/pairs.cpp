@@ -59,15 +59,7 @@ void run_pairs(const PairsCommand& pairs) {
       progress.done(share);
       return true;
     };
-    using Complex = std::decay_t<decltype(complex)>;
-    if constexpr (requires { distance_matrix(Serial{}, complex, points, tell, accuracy); }) {
-      matrix = distance_matrix(Serial{}, complex, points, tell, accuracy);
-    } else {
-      Combination cell = combination<Serial, Complex>();
-      cell.accuracy = accuracy.kind();
-      support(cell).require();
-      matrix = distance_matrix(Serial{}, complex, points, tell);
-    }
+    matrix = distance_matrix(Serial{}, complex, points, tell, accuracy);
     phases.end("solve");
   });
   if (!command.out.empty()) write_matrix(command.out, matrix.size, matrix.distance);

@@ -1,3 +1,4 @@
+#include <array>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -14,10 +15,9 @@ namespace {
 using namespace gl;
 
 struct SolidBuffers final : GLWorkspace::Implementation::DomainBuffers {
-  Buffer tets{"tetrahedra"}, points{"vertices"}, reflex{"reflex edges"},
-      corners{"corners at vertices"}, inside{"vertex numbers"};
+  Buffer tets{"tetrahedra"}, lengths{"lengths"}, corners{"corners at vertices"}, inside{"vertex numbers"};
 
-  std::vector<Buffer*> all() override { return {&tets, &points, &reflex, &corners, &inside}; }
+  std::vector<Buffer*> all() override { return {&tets, &lengths, &corners, &inside}; }
 };
 
 // A label on its way to the device, as shaders/solid_add.comp reads it.
@@ -26,6 +26,19 @@ struct AddedLabel {
   GLuint spare;
   SolidCell label;
 };
+
+std::vector<std::array<float, 6>> squared_lengths(const TetMesh<float>& mesh) {
+  if (!mesh.embedded()) return {mesh.squared_lengths().begin(), mesh.squared_lengths().end()};
+  std::vector<std::array<float, 6>> lengths(mesh.tet_count());
+  for (Index t = 0; t < mesh.tet_count(); ++t)
+    for (std::size_t e = 0; e < 6; ++e) {
+      const Index* const corner = mesh.tets()[t].corner;
+      const auto along = mesh.points()[corner[tet_edge_ends[e][1]]] -
+                         mesh.points()[corner[tet_edge_ends[e][0]]];
+      lengths[t][e] = dot(along, along);
+    }
+  return lengths;
+}
 
 // Several fields in one solid, in one launch.
 class SolidRun {
@@ -47,9 +60,7 @@ class SolidRun {
         session_(job.session),
         buffers_(workspace_.domain_buffers<SolidBuffers>(
             session_, mesh.identity(), [&](SolidBuffers& fresh) { upload(fresh); })),
-        radius_(static_cast<float>(job.options.radius / mesh.unit())),
-        drops_(!mesh.reflex_edges().empty() || !mesh.pinched().empty() ||
-               !mesh.pinched_edges().empty() || mesh.summary().degenerate_tets > 0) {}
+        radius_(static_cast<float>(job.options.radius / mesh.unit())) {}
 
   /// Until no label waits, in so many fields. False if the budget is spent.
   bool run(const SolidSeeds& seeds, std::size_t fields) {
@@ -61,15 +72,16 @@ class SolidRun {
     const GLuint rule = session_.program("solid_round.comp");
     const auto report = reporter(job_.options, cells(), mesh_.unit());
     bool complete = true;
-    std::size_t repairs = 0;
     do {
-      set_rule_uniforms(rule, repairs > 8, 0);
+      const Uniforms program(session_, rule);
+      set_solid_uniforms(program);
+      program.set("radius", radius_);
       bind_solid();
       const std::size_t share = session_.context().group() / 4;  // four invocations a label
       complete = front.spread(session_, rule, share, "#define PLEXWAY_SOLIDS\n", report);
-    } while (complete && (pass_pinches() || (++repairs < 64 && repair(repairs))));
+    } while (complete && pass_pinches());
     workspace_.rounds = front.state().rounds;
-    return complete_ = complete;
+    return complete;
   }
 
   /// Fields times vertices, in the caller's order; `label` may be empty.
@@ -80,11 +92,9 @@ class SolidRun {
     offer_vertices(job_, seeds.offers, false, labels_);
     ask_tets(vertices);
     if (labels_) offer_vertices(job_, seeds.offers, true, labels_);
-    if (labels_ && complete_) pass_borders(seeds, vertices);
-    // The full rule is exact where nothing bends a path.
-    while (drops_ && relax(false)) {
+    while (relax(false)) {
     }
-    while (drops_ && labels_ && relax(true)) {
+    while (labels_ && relax(true)) {
     }
     finish(job_,
            {buffers_.inside, workspace_.vertex_best, 1, workspace_.vertex_source,
@@ -96,16 +106,11 @@ class SolidRun {
   [[nodiscard]] std::size_t cells() const { return fields_ * mesh_.tet_count(); }
 
   void upload(SolidBuffers& to) {
-    static_assert(sizeof(TetRecord<float>) == 48 && sizeof(ReflexEdge<float>) == 84 &&
-                  sizeof(SolidCell) == 32 && sizeof(AddedLabel) == 48);
+    static_assert(sizeof(TetRecord<float>) == 48 && sizeof(SolidCell) == 32 &&
+                  sizeof(AddedLabel) == 48);
     to.tets.upload(session_, mesh_.tets().first(mesh_.tet_count()));
-    to.points.upload(session_, mesh_.points());
     to.inside.upload(session_, mesh_.vertices_inside());
-    const auto edges = mesh_.reflex_edges();
-    const auto list = mesh_.reflex_list();
-    to.reflex.reserve(session_, edges.size_bytes() + list.size_bytes());
-    to.reflex.write(session_, edges);
-    to.reflex.write(session_, list, edges.size_bytes() / sizeof(Index));
+    to.lengths.upload(session_, std::span<const std::array<float, 6>>(squared_lengths(mesh_)));
     std::vector<Index> corners(mesh_.vertex_count() + 1, 0);
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       const auto around = mesh_.corners_at(v);
@@ -117,30 +122,18 @@ class SolidRun {
 
   void bind_solid() const {
     buffers_.tets.bind(session_, 5);
-    buffers_.points.bind(session_, 6);
-    buffers_.reflex.bind(session_, 7);
+    buffers_.lengths.bind(session_, 6);
   }
 
   void set_solid_uniforms(const Uniforms& program) const {
     program.set("tet_count", mesh_.tet_count());
-    program.set("reflex_count", mesh_.reflex_edges().size());
-    program.set("cracks", static_cast<std::size_t>(mesh_.has_crack()));
     program.set("cell_count", cells());
     program.set("vertex_count", mesh_.vertex_count());
   }
 
-  void set_rule_uniforms(GLuint rule, bool last_resort, std::size_t repaired_cells) const {
-    const Uniforms program(session_, rule);
-    set_solid_uniforms(program);
-    program.set("radius", radius_);
-    program.set("last_resort", std::size_t{last_resort});
-    program.set("repair", repaired_cells);
-  }
-
-  // Few solids have such places, or cracks: the host sees to them.
+  // Few solids have such places: the host sees to them.
   bool pass_pinches() {
-    if (mesh_.pinched().empty() && mesh_.pinched_edges().empty() && !mesh_.has_crack())
-      return false;
+    if (mesh_.pinched().empty() && mesh_.pinched_edges().empty()) return false;
     std::vector<Cell> best(cells());
     std::vector<SolidCell> known(cells());
     workspace_.front.cells().read(session_, std::span<Cell>(best));
@@ -162,35 +155,6 @@ class SolidRun {
     });
   }
 
-  // As SolidPropagation's: the last few are not worth another look at all.
-  bool repair(std::size_t round) {
-    Front& front = workspace_.front;
-    if (!drops_ && front.state().reached == cells()) return false;
-    const std::size_t repaired = front.add(session_, [&] {
-      const GLuint rule = session_.program("solid_round.comp");
-      set_rule_uniforms(rule, true, cells());
-      bind_solid();
-      session_.gl.UseProgram(rule);
-      dispatch(session_, 4 * cells());
-    });
-    return repaired > 0 && (front.state().spare > 0 || (round < 4 && repaired > cells() / 1024));
-  }
-
-  // A front over few vertices, in an order: the host sees to them.
-  void pass_borders(const SolidSeeds& seeds, std::size_t vertices) {
-    std::vector<Cell> best(cells());
-    std::vector<SolidCell> known(cells());
-    std::vector<float> distance(vertices);
-    std::vector<Index> source(vertices);
-    workspace_.front.cells().read(session_, std::span<Cell>(best));
-    workspace_.front.labels().read(session_, std::span<SolidCell>(known));
-    workspace_.vertex_best.read(session_, std::span<float>(distance));
-    workspace_.vertex_source.read(session_, std::span<Index>(source));
-    seeds.pass_borders(mesh_, job_.options, best, known, workspace_.host, distance, source);
-    workspace_.vertex_best.write(session_, std::span<const float>(distance));
-    workspace_.vertex_source.write(session_, std::span<const Index>(source));
-  }
-
   void bind_vertices() {
     workspace_.vertex_best.bind(session_, 0);
     if (labels_) workspace_.vertex_source.bind(session_, 1);
@@ -204,7 +168,6 @@ class SolidRun {
     bind_vertices();
     workspace_.front.labels().bind(session_, 2);
     buffers_.corners.bind(session_, 3);
-    workspace_.front.cells().bind(session_, 4);
     bind_solid();
     dispatch(session_, vertices);
   }
@@ -228,9 +191,7 @@ class SolidRun {
   const Session& session_;
   SolidBuffers& buffers_;
   float radius_;
-  bool drops_;  // can an offer be dropped that another does not make up for?
   bool labels_ = false;
-  bool complete_ = true;
   std::size_t fields_ = 1;
 };
 

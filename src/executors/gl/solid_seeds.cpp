@@ -5,17 +5,16 @@
 #include <iterator>
 #include <limits>
 
-#include "propagate/solid_borders.hpp"
+#include "propagate/plain_solid_rule.hpp"
 #include "propagate/solid_propagation.hpp"
 #include "propagate/solid_read_out.hpp"
-#include "propagate/solid_rule.hpp"
 #include "propagate/wavefront.hpp"
 
 namespace plexway::gl {
 namespace {
 
-using Wave = Wavefront<float, SolidLabel<float>, DualQueue<float>, true>;
-using Rule = SolidRule<float, Wave>;
+using Wave = Wavefront<float, PlainSolidLabel<float>, DualQueue<float>, true>;
+using Rule = PlainSolidRule<float, Wave>;
 
 // The serial rule in the host's workspace, in which labels wait until they are taken to the device.
 class HostFront {
@@ -27,14 +26,10 @@ class HostFront {
         propagation(mesh, rule_, front_, options) {}
 
   void know(Index t, GLuint distance, const SolidCell& cell) {
-    SolidLabel<float> label;
-    label.source = {cell.place[0], cell.place[1], cell.place[2]};
+    PlainSolidLabel<float> label;
+    std::copy(cell.distance2.begin(), cell.distance2.end(), label.distance2);
     label.sigma = cell.sigma;
     label.centre = std::bit_cast<float>(distance);
-    std::copy(cell.bend.begin(), cell.bend.end(), label.bend);
-    label.door = (cell.state & SolidCell::unfolded) != 0
-                     ? SolidDoor::unfolded + (cell.state >> SolidCell::edge_shift)
-                     : none;
     front_.accept(t, cell.state & SolidCell::face_mask, label, label.centre, cell.source);
   }
 
@@ -44,8 +39,6 @@ class HostFront {
       if (best[t].known != FrontControl::unreached) know(t, best[t].known, known[t]);
     drain([](Index, GLuint, const SolidCell&) {});
   }
-  [[nodiscard]] const Wave& front() const { return front_; }
-  [[nodiscard]] const Rule& rule() const { return rule_; }
 
   /// Takes what waits.
   template <class Take>
@@ -54,17 +47,13 @@ class HostFront {
     const auto distance_of = [&](Index u) { return rule_.distance(u); };
     do {
       while (front_.next(t, distance_of)) {
-        const SolidLabel<float>& label = front_.label(t);
-        const Vector3<float>& s = label.source;
-        SolidCell cell = {{s.x, s.y, s.z},
-                          label.sigma,
+        const PlainSolidLabel<float>& label = front_.label(t);
+        SolidCell cell = {{},
                           static_cast<GLuint>(front_.hinge(t)) | SolidCell::known,
-                          {},
+                          label.sigma,
+                          0,
                           front_.source(t)};
-        if (label.door != none)
-          cell.state |= SolidCell::unfolded | (label.door - SolidDoor::unfolded)
-                                                  << SolidCell::edge_shift;
-        std::copy(std::begin(label.bend), std::end(label.bend), cell.bend.begin());
+        std::copy(std::begin(label.distance2), std::end(label.distance2), cell.distance2.begin());
         take(t, std::bit_cast<GLuint>(label.centre), cell);
       }
     } while (front_.take_stock(0));
@@ -76,7 +65,7 @@ class HostFront {
     const std::size_t tets = mesh.tet_count();
     workspace.front.reserve(tets);
     workspace.start(tets, true);
-    return Wave(workspace.marks, workspace.solids.reserve(tets + 1),
+    return Wave(workspace.marks, workspace.plain_solids.reserve(tets + 1),
                 DualQueue<float>(workspace.front, std::numeric_limits<float>::infinity()),
                 workspace.source.data(), tets, mesh.unit(), options);
   }
@@ -101,7 +90,6 @@ void SolidSeeds::add(const TetMesh<float>& mesh, std::span<const PointSource> so
                      std::size_t field, WorkspaceState<float>& workspace) {
   const PropagateOptions options;
   HostFront host(mesh, options, workspace);
-  sources_.assign(sources.begin(), sources.end());
   for (std::size_t n = 0; n < sources.size(); ++n) {
     host.propagation.seed(sources[n], static_cast<Index>(n));
     offer_corners(mesh, sources[n], [&](Index v, double d) {
@@ -122,31 +110,11 @@ void SolidSeeds::add_pinches(const TetMesh<float>& mesh, const PropagateOptions&
   const PropagateOptions all = without_limits(options);
   HostFront host(mesh, all, workspace);
   host.know(best.subspan(first, tets), known.subspan(first, tets));
-  const bool pinches = host.propagation.pass_pinches();
-  if (!host.propagation.pass_bends() && !pinches) return;
+  if (!host.propagation.pass_pinches()) return;
   host.drain([&](Index t, GLuint distance, const SolidCell& cell) {
     waiting.push_back({static_cast<GLuint>(first + t), distance});
     labels.push_back(cell);
   });
-}
-
-void SolidSeeds::pass_borders(const TetMesh<float>& mesh, const PropagateOptions& options,
-                              std::span<const Cell> best, std::span<const SolidCell> known,
-                              WorkspaceState<float>& workspace, std::span<float> distance,
-                              std::span<Index> label) const {
-  const PropagateOptions all = without_limits(options);
-  HostFront host(mesh, all, workspace);
-  host.know(best, known);
-  workspace.vertex.assign(distance.begin(), distance.end());
-  workspace.vertex_source.assign(label.begin(), label.end());
-  const auto tetrahedron = [&](Index v) {
-    Index found = none;
-    host.rule().ask_around(mesh.corners_at(v), [&](Index t, float) { found = t; });
-    return found;
-  };
-  SolidBorders(mesh, host.rule(), host.front(), workspace, options, tetrahedron).run(sources_);
-  std::copy(workspace.vertex.begin(), workspace.vertex.end(), distance.begin());
-  std::copy(workspace.vertex_source.begin(), workspace.vertex_source.end(), label.begin());
 }
 
 }  // namespace plexway::gl

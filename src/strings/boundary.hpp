@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <plexway/complex/tet_mesh.hpp>
+
+#include "strings/place.hpp"
+
+/// The boundary of a solid as strings see it: faces, what joins them, and where strings may bend.
+namespace plexway::strings {
+
+/// How exact the coordinates of a solid are, in mean edges.
+struct Tolerances {
+  double on;      ///< so near to a plane a point is on it
+  double aside;   ///< so far beside the boundary legs run
+  double reflex;  ///< so much more than pi bends strings (radians)
+  double same;    ///< directions and normals of one row of edges differ by less
+};
+template <class Real>
+Tolerances tolerances_of(const TetMesh<Real>& mesh);
+
+struct Boundary {
+  /// Edge k of a face is from corner k + 1 to corner k + 2, so opposite to corner k.
+  struct Face {
+    std::array<Index, 3> corner;  ///< vertices; counterclockwise as seen from the solid
+    std::array<Index, 3> across;  ///< faces behind the edges, through the solid
+    std::array<Index, 3> place;   ///< of the edges; none: strings do not bend there
+    Point normal;                 ///< into the solid, unit; 0 without area
+  };
+  /// A tetrahedron at an edge: its two planes there, inward, and what is halfway between.
+  struct Wedge {
+    Point plane[2], middle;
+  };
+  std::vector<Face> faces;
+  std::vector<Place> places;                     ///< rows of edges
+  std::vector<Wedge> wedges;                     ///< of edges where tetrahedra only touch
+  std::vector<std::pair<Index, Index>> rows_at;  ///< vertex and a row of edges there, ascending
+};
+
+/// Cost: linear in the tetrahedra, and n log n in the boundary.
+template <class Real>
+Boundary find_boundary(const TetMesh<Real>& mesh, std::span<const Point> points,
+                       const Tolerances& near);
+
+}  // namespace plexway::strings

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+
+/// Chains of places that strings bend at, from a source on. Each is kept once, as the chain before
+/// it and one more place, so that two strings along the same places have the same number.
+namespace plexway::strings {
+
+class Chains {
+ public:
+  /// One link: what comes before it, and the place at its end. Of a root the source.
+  struct Link {
+    Index parent, place;
+  };
+
+  /// Chains 0, 1, ... with no place, one a source.
+  void start(std::size_t sources) {
+    links_.clear();
+    for (Index n = 0; n < sources; ++n) links_.push_back({none, n});
+    table_.assign(64, none);
+  }
+  /// The chain with a place behind.
+  Index with(Index parent, Index place) {
+    if (2 * links_.size() > table_.size()) grow();
+    std::size_t slot = slot_of(parent, place);
+    for (; table_[slot] != none; slot = (slot + 1) & (table_.size() - 1)) {
+      const Link& link = links_[table_[slot]];
+      if (link.parent == parent && link.place == place) return table_[slot];
+    }
+    table_[slot] = static_cast<Index>(links_.size());
+    links_.push_back({parent, place});
+    return table_[slot];
+  }
+
+  [[nodiscard]] const Link& operator[](Index chain) const { return links_[chain]; }
+  [[nodiscard]] bool is_root(Index chain) const { return links_[chain].parent == none; }
+  [[nodiscard]] Index source(Index chain) const {
+    while (!is_root(chain)) chain = links_[chain].parent;
+    return links_[chain].place;
+  }
+  /// The places of a chain, from the source on.
+  void places(Index chain, std::vector<Index>& places) const {
+    std::size_t count = 0;
+    for (Index c = chain; !is_root(c); c = links_[c].parent) ++count;
+    places.resize(count);
+    for (Index c = chain; !is_root(c); c = links_[c].parent) places[--count] = links_[c].place;
+  }
+
+  [[nodiscard]] std::size_t size() const { return links_.size(); }
+  [[nodiscard]] std::size_t bytes() const {
+    return links_.capacity() * sizeof(Link) + table_.capacity() * sizeof(Index);
+  }
+
+ private:
+  [[nodiscard]] std::size_t slot_of(Index parent, Index place) const {
+    const std::uint64_t key = std::uint64_t{parent} << 32 | place;
+    return (key * 0x9E3779B97F4A7C15u >> 20) & (table_.size() - 1);
+  }
+  void grow() {
+    table_.assign(2 * table_.size(), none);
+    for (Index c = 0; c < links_.size(); ++c) {
+      if (is_root(c)) continue;
+      std::size_t slot = slot_of(links_[c].parent, links_[c].place);
+      while (table_[slot] != none) slot = (slot + 1) & (table_.size() - 1);
+      table_[slot] = c;
+    }
+  }
+
+  std::vector<Link> links_;
+  std::vector<Index> table_;  // open addressing; a power of two
+};
+
+}  // namespace plexway::strings

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <plexway/complex/ids.hpp>
+
+#include "strings/place.hpp"
+
+/// What vertices know of the strings that reach them.
+namespace plexway::strings {
+
+/// A string to a vertex.
+struct Label {
+  double distance = std::numeric_limits<double>::infinity();
+  Index chain = none;
+  Point last = {0, 0, 0};  ///< its last leg's direction, unit: the field's gradient
+};
+
+/// A vertex keeps the shortest strings that come to it from different sides: one that is not much
+/// longer than the shortest may be the shortest of a neighbour.
+struct VertexLabels {
+  static constexpr std::size_t most = 2;
+  static constexpr std::size_t remembered = 6;
+  std::array<Label, most> labels;       ///< by their distance
+  std::array<Index, remembered> tried;  ///< chains of late
+  Index next = 0;
+
+  VertexLabels() { tried.fill(none); }
+  [[nodiscard]] const Label& best() const { return labels[0]; }
+  /// The label, if it is still one of the vertex.
+  [[nodiscard]] const Label* find(Index chain, double distance) const {
+    for (const Label& l : labels)
+      if (l.chain == chain && l.distance == distance) return &l;
+    return nullptr;
+  }
+  [[nodiscard]] bool knows(Index chain) const {
+    for (const Label& l : labels)
+      if (l.chain == chain) return true;
+    for (const Index t : tried)
+      if (t == chain) return true;
+    return false;
+  }
+  void remember(Index chain) {
+    tried[next] = chain;
+    next = (next + 1) % remembered;
+  }
+  /// Strings as long as this, that end in this direction, are of no use.
+  [[nodiscard]] double limit(double behind, const Point& last) const {
+    double limit = std::min(best().distance + behind, labels[most - 1].distance);
+    for (const Label& l : labels)
+      if (alike(l.last, last)) limit = std::min(limit, l.distance);
+    return limit;
+  }
+  /// Takes a string; false if it is of no use.
+  bool take(const Label& label, double behind) {
+    if (!(label.distance < limit(behind, label.last))) return false;
+    // Those that are longer and alike, or too long now, make room.
+    std::array<Label, most> kept;
+    std::size_t n = 0;
+    bool placed = false;
+    const double longest = std::min(label.distance, best().distance) + behind;
+    for (const Label& l : labels) {
+      if (!placed && !(l.distance < label.distance)) {
+        placed = true;
+        if (n < most) kept[n++] = label;
+      }
+      const bool after = placed && (l.chain == label.chain || alike(l.last, label.last));
+      if (n < most && l.chain != none && !after && l.distance < longest) kept[n++] = l;
+    }
+    if (!placed && n < most) kept[n] = label;
+    labels = kept;
+    return true;
+  }
+
+ private:
+  static bool alike(const Point& a, const Point& b) {
+    constexpr double cosine = .99;
+    return dot(a, b) >= cosine;
+  }
+};
+
+}  // namespace plexway::strings

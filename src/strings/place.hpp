@@ -1,0 +1,73 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <plexway/complex/detail/tet_record.hpp>
+
+/// Where strings bend: straight rows of edges with more than pi of solid around them, and vertices.
+namespace plexway::strings {
+
+using Point = Vector3<double>;
+
+/// `a` over its length; 0 for 0.
+inline Point unit(const Point& a) {
+  const double length = norm(a);
+  return length > 0 ? 1 / length * a : a;
+}
+
+/// A row of edges between the same two planes of the boundary, or a single point (low = high).
+struct Place {
+  Point origin, along;  ///< of points origin + t along, `along` a unit vector
+  double low, high;     ///< the least and the greatest t
+  Point into;           ///< into the solid, unit: halfway between the two planes
+  Point floor, normal;  ///< across it: within the first plane, and square to that into the solid
+  double angle;         ///< of solid around it, from the first plane to the second
+  Index vertex = none;  ///< of a single point
+  Index end[2] = {none, none};            ///< vertices at `low` and `high`
+  Index first_wedge = 0, last_wedge = 0;  ///< where tetrahedra only touch: Boundary::wedges
+
+  /// Strings that come to it never lift off: a vertex, or an edge where tetrahedra only touch.
+  [[nodiscard]] bool holds() const { return angle == 0; }
+  [[nodiscard]] Point at(double t) const { return origin + t * along; }
+  /// Off the ends, where other faces begin.
+  [[nodiscard]] Point off_ends(double t, double by) const {
+    const double off = std::min(3 * by, (high - low) / 2);
+    return at(std::clamp(t, low + off, high - off));
+  }
+  /// A little inside the solid.
+  [[nodiscard]] Point beside(double t, double by) const { return off_ends(t, by) + by * into; }
+
+  /// Where a direction leads, measured through the solid from the first plane. One that leads into
+  /// the obstacle counts to the nearer plane.
+  [[nodiscard]] double angle_of(const Point& direction) const {
+    const double measured = std::atan2(dot(direction, normal), dot(direction, floor));
+    return measured < (angle - turn) / 2 ? measured + turn : measured;
+  }
+  /// The same for one that was turned there from another one, by less than half a turn.
+  [[nodiscard]] double angle_of(const Point& direction, const Point& before) const {
+    const double now = angle_of(direction);
+    if (dot(before, before) < 1e-18) return now;
+    return now + turn * std::round((angle_of(before) - now) / turn);
+  }
+  /// Does a string press against the obstacle between legs that leave at these angles? A leg in
+  /// the plane of a crack is on both of its sides.
+  [[nodiscard]] bool presses(double a, double b) const {
+    constexpr double slack = 1e-6;  // costs its square
+    if (std::min(a, b) < -slack || std::max(a, b) > angle + slack) return true;
+    const auto sides = [&](double x) {
+      constexpr double same = 1e-10;
+      if (angle < turn - same) return std::pair{x, x};
+      return std::pair{x > angle - same ? 0 : x, x < same ? angle : x};
+    };
+    const auto [least_a, most_a] = sides(a);
+    const auto [least_b, most_b] = sides(b);
+    return std::max(most_a - least_b, most_b - least_a) >= std::numbers::pi - slack;
+  }
+
+  static constexpr double turn = 2 * std::numbers::pi;
+};
+
+}  // namespace plexway::strings

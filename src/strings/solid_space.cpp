@@ -1,0 +1,128 @@
+#include "strings/solid_space.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace plexway::strings {
+
+template <class Real>
+SolidSpace::SolidSpace(const TetMesh<Real>& mesh) : near_(tolerances_of(mesh)) {
+  points_.reserve(mesh.points().size());
+  for (const auto& p : mesh.points()) points_.push_back({double(p.x), double(p.y), double(p.z)});
+  boundary_ = find_boundary(mesh, points_, near_);
+  sight_ = Sight(boundary_, points_, near_);
+  join(mesh);
+  find_inside(mesh);
+}
+
+template <class Real>
+void SolidSpace::join(const TetMesh<Real>& mesh) {
+  std::vector<Index> seen(points_.size(), none);
+  begin_.assign(1, 0);
+  begin_.reserve(points_.size() + 1);
+  for (Index v = 0; v < points_.size(); ++v) {
+    seen[v] = v;
+    for (const Index corner : mesh.corners_at(v))
+      for (const Index w : mesh.tets()[corner / 4].corner)
+        if (std::exchange(seen[w], v) != v) neighbours_.push_back(w);
+    begin_.push_back(static_cast<Index>(neighbours_.size()));
+  }
+}
+
+template <class Real>
+void SolidSpace::find_inside(const TetMesh<Real>& mesh) {
+  constexpr double clear = .05;             // of a cosine
+  std::vector<std::pair<Index, Index>> at;  // vertex, face
+  for (Index f = 0; f < boundary_.faces.size(); ++f)
+    for (const Index v : boundary_.faces[f].corner) at.push_back({v, f});
+  std::sort(at.begin(), at.end());
+  slot_.assign(points_.size(), none);
+  for (std::size_t first = 0, last = 0; first < at.size(); first = last) {
+    const Index v = at[first].first;
+    while (last < at.size() && at[last].first == v) ++last;
+    const auto normal = [&](std::size_t i) { return boundary_.faces[at[i].second].normal; };
+    Point sum = {0, 0, 0};
+    for (std::size_t i = first; i < last; ++i) sum = sum + normal(i);
+    sum = unit(sum);
+    double least = 0;
+    for (int tries = 0; tries < 16 && least <= clear; ++tries) {
+      std::size_t worst = first;
+      for (std::size_t i = first; i < last; ++i)
+        if (dot(normal(i), sum) < dot(normal(worst), sum)) worst = i;
+      least = dot(normal(worst), sum);
+      if (least <= clear) sum = unit(sum + (2 * clear - least) * normal(worst));
+    }
+    slot_[v] = static_cast<Index>(inside_.size());
+    inside_.push_back({sum, 0, 0});
+    if (least > clear) continue;
+    Inside& inside = inside_.back();
+    inside.begin = static_cast<Index>(cones_.size());
+    for (const Index corner : mesh.corners_at(v)) {
+      const auto& tet = mesh.tets()[corner / 4];
+      Cone cone{};
+      Point side[3];
+      for (Index k = 1; k < 4; ++k)
+        side[k - 1] = points_[tet.corner[(corner % 4 + k) % 4]] - points_[v];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point n = unit(cross(side[(k + 1) % 3], side[(k + 2) % 3]));
+        cone.plane[k] = dot(n, side[k]) < 0 ? -1. * n : n;
+        cone.middle = cone.middle + unit(side[k]);
+      }
+      cone.middle = unit(cone.middle);
+      cones_.push_back(cone);
+    }
+    inside.end = static_cast<Index>(cones_.size());
+  }
+}
+
+// Of the parts of the solid at `p` that hold a direction the one that holds the second one best;
+// where none holds the first, of all of them.
+template <class Part>
+Point SolidSpace::into(std::span<const Part> parts, const Point& p, const Point& toward,
+                       const Point& free) const {
+  const Point first = unit(toward - p), second = unit(free - p);
+  const auto depth = [](const Part& part, const Point& d) {
+    double least = 1;
+    for (const Point& plane : part.plane) least = std::min(least, dot(plane, d));
+    return least;
+  };
+  const Part* best = nullptr;
+  double deepest = 0;
+  bool held = false;
+  for (const Part& part : parts) {
+    const bool holds = depth(part, first) >= -near_.on;
+    const double now = depth(part, second);
+    if (best != nullptr && (held > holds || (held == holds && now <= deepest))) continue;
+    best = &part;
+    deepest = now;
+    held = holds;
+  }
+  return p + near_.aside * best->middle;
+}
+
+Point SolidSpace::beside_boundary(Index slot, Index vertex, const Point& toward,
+                                  const Point& free) const {
+  const Inside& inside = inside_[slot];
+  const Point& p = points_[vertex];
+  if (inside.begin == inside.end) return p + near_.aside * inside.direction;
+  return into(std::span<const Cone>(cones_).subspan(inside.begin, inside.end - inside.begin), p,
+              toward, free);
+}
+
+Point SolidSpace::beside(const Place& place, double t, const Point& toward,
+                         const Point& free) const {
+  return into(std::span<const Boundary::Wedge>(boundary_.wedges)
+                  .subspan(place.first_wedge, place.last_wedge - place.first_wedge),
+              place.off_ends(t, near_.aside), toward, free);
+}
+
+std::size_t SolidSpace::bytes() const {
+  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return sizeof(*this) + of(points_) + of(boundary_.faces) + of(boundary_.places) + sight_.bytes() +
+         of(begin_) + of(neighbours_) + of(slot_) + of(inside_) + of(cones_);
+}
+
+template SolidSpace::SolidSpace(const TetMesh<float>&);
+template SolidSpace::SolidSpace(const TetMesh<double>&);
+
+}  // namespace plexway::strings

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <plexway/complex/tet_mesh.hpp>
+
+#include "strings/boundary.hpp"
+#include "strings/sight.hpp"
+
+/// A flat solid as strings see it. What follows from the mesh alone, so that solves share it.
+namespace plexway::strings {
+
+class SolidSpace {
+ public:
+  /// Cost: linear in the tetrahedra, and n log n in the boundary.
+  template <class Real>
+  explicit SolidSpace(const TetMesh<Real>& mesh);
+  SolidSpace(const SolidSpace&) = delete;
+  SolidSpace& operator=(const SolidSpace&) = delete;
+
+  [[nodiscard]] std::size_t vertices() const { return points_.size(); }
+  [[nodiscard]] const Point& point(Index vertex) const { return points_[vertex]; }
+  /// Vertices that share an edge with one.
+  [[nodiscard]] std::span<const Index> neighbours(Index vertex) const {
+    return std::span<const Index>(neighbours_)
+        .subspan(begin_[vertex], begin_[vertex + 1] - begin_[vertex]);
+  }
+  [[nodiscard]] const std::vector<Place>& places() const { return boundary_.places; }
+  [[nodiscard]] const Sight& sight() const { return sight_; }
+  [[nodiscard]] double aside() const { return near_.aside; }
+
+  /// Where a leg from or to a vertex ends: a little inside the solid, for one `toward` a point. On
+  /// which side of a face in that direction, or if it is behind the boundary, says `free`.
+  [[nodiscard]] Point beside(Index vertex, const Point& toward, const Point& free) const {
+    const Index slot = slot_[vertex];
+    return slot == none ? points_[vertex] : beside_boundary(slot, vertex, toward, free);
+  }
+  /// The same from or to a point of an edge where tetrahedra only touch.
+  [[nodiscard]] Point beside(const Place& place, double t, const Point& toward,
+                             const Point& free) const;
+  /// Rows of edges at a vertex: vertex and place.
+  [[nodiscard]] std::span<const std::pair<Index, Index>> rows_at(Index vertex) const {
+    if (slot_[vertex] == none) return {};
+    const auto& rows = boundary_.rows_at;
+    const auto begin =
+        std::lower_bound(rows.begin(), rows.end(), std::pair<Index, Index>{vertex, 0});
+    auto end = begin;
+    while (end != rows.end() && end->first == vertex) ++end;
+    return {begin, end};
+  }
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  // The solid near a vertex, as seen from it: of a tetrahedron the planes and its middle.
+  struct Cone {
+    Point plane[3], middle;
+  };
+  // Of a vertex of the boundary: one direction that leads off all of its faces; else its cones.
+  struct Inside {
+    Point direction;
+    Index begin, end;
+  };
+  template <class Real>
+  void join(const TetMesh<Real>& mesh);
+  template <class Real>
+  void find_inside(const TetMesh<Real>& mesh);
+  template <class Part>
+  [[nodiscard]] Point into(std::span<const Part> parts, const Point& p, const Point& toward,
+                           const Point& free) const;
+  [[nodiscard]] Point beside_boundary(Index slot, Index vertex, const Point& toward,
+                                      const Point& free) const;
+
+  std::vector<Point> points_;
+  Tolerances near_;
+  Boundary boundary_;
+  Sight sight_;
+  std::vector<Index> begin_, neighbours_;
+  std::vector<Index> slot_;  // into inside_; none: not on the boundary
+  std::vector<Inside> inside_;
+  std::vector<Cone> cones_;
+};
+
+}  // namespace plexway::strings

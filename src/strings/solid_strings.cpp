@@ -1,0 +1,137 @@
+#include "strings/solid_strings.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <plexway/error.hpp>
+
+#include "complex/number_range.hpp"
+
+namespace plexway {
+namespace {
+
+using strings::Point;
+
+template <class Real>
+strings::Source source_of(const TetMesh<Real>& mesh, const strings::SolidSpace& space,
+                          const PointSource& given) {
+  strings::Source source;
+  source.offset = given.offset / mesh.unit();
+  if (given.vertex != none) {
+    source.vertex = mesh.inside_vertex(given.vertex);
+    source.at = source.beside = space.point(source.vertex);
+    return source;
+  }
+  const auto [tet, turned] = mesh.inside_tet(given.simplex);
+  std::array<double, 4> b = given.barycentric;
+  if (turned) std::swap(b[2], b[3]);
+  Point middle = {0, 0, 0};
+  source.at = {0, 0, 0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    source.corners[i] = mesh.tets()[tet].corner[i];
+    source.at = source.at + b[i] * space.point(source.corners[i]);
+    middle = middle + .25 * space.point(source.corners[i]);
+  }
+  source.beside = source.at + space.aside() * strings::unit(middle - source.at);
+  return source;
+}
+
+}  // namespace
+
+template <class Real>
+void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
+                         const PropagateOptions& options, DistanceField<Real>& field) {
+  NumberRange<Real>::check_unit(mesh.unit());
+  if (!solver_ || identity_ != mesh.identity()) {
+    space_ = mesh.space().template get<strings::SolidSpace>(
+        [&] { return std::make_shared<const strings::SolidSpace>(mesh); });
+    solver_ = std::make_unique<strings::Solver>(*space_);
+    identity_ = mesh.identity();
+    unit_ = mesh.unit();
+  }
+  sources_.clear();
+  inside_.clear();
+  for (const PointSource& s : sources) {
+    if (s.vertex == none)
+      inside_.emplace_back(mesh.inside_tet(s.simplex).first, static_cast<Index>(sources_.size()));
+    sources_.push_back(source_of(mesh, *space_, s));
+  }
+  std::sort(inside_.begin(), inside_.end());
+  const std::size_t vertices = mesh.vertex_count();
+  strings::Limits limits;
+  limits.radius = options.radius / mesh.unit();
+  limits.expansions = options.max_expansions;
+  if (options.progress)
+    limits.progress = [&](std::size_t expansions, double distance) {
+      if (!options.progress({expansions, std::min(expansions, mesh.tet_count()), mesh.tet_count(),
+                             distance * mesh.unit()}))
+        throw Cancelled("cancelled by the progress callback");
+    };
+  field.complete = solver_->solve(sources_, limits);
+  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  field.distance.resize(vertices);
+  field.label.assign(sources.size() > 1 ? vertices : 0, none);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const Index inside = mesh.inside_vertex(static_cast<Index>(v));
+    const Real d = static_cast<Real>(solver_->distance(inside) * mesh.unit());
+    const bool in = d <= static_cast<Real>(options.radius) && d < infinity;
+    field.distance[v] = in ? d : infinity;
+    if (in && sources.size() > 1) field.label[v] = solver_->source(inside);
+  }
+  // An offset survives scaling exactly.
+  for (const PointSource& s : sources)
+    if (s.vertex != none && s.offset <= options.radius)
+      field.distance[s.vertex] = std::min(field.distance[s.vertex], static_cast<Real>(s.offset));
+  field.accuracy = Accuracy::accurate();
+  field.error.clear();
+  field.statistics = {};
+  field.statistics.expansions = solver_->counts().expansions;
+  field.statistics.updates = solver_->counts().labels;
+}
+
+SolidStrings::Found SolidStrings::found(Index vertex) const {
+  const Index source = solver_->source(vertex);
+  if (source == none) return {std::numeric_limits<double>::infinity(), none, {}};
+  return {solver_->distance(vertex) * unit_, source, solver_->path(vertex)};
+}
+
+SolidStrings::Found SolidStrings::at(Index vertex) const {
+  const std::lock_guard lock(asked_);
+  return found(vertex);
+}
+
+template <class Real>
+SolidStrings::Found SolidStrings::at(const TetMesh<Real>& mesh, Index tet,
+                                     const std::array<double, 4>& weight) const {
+  const std::lock_guard lock(asked_);
+  std::array<Index, 4> corners;
+  Point at = {0, 0, 0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    corners[i] = mesh.tets()[tet].corner[i];
+    if (weight[i] == 1) return found(corners[i]);
+    at = at + weight[i] * space_->point(corners[i]);
+  }
+  std::vector<Index> own;
+  for (auto in = std::lower_bound(inside_.begin(), inside_.end(), std::pair{tet, Index{0}});
+       in != inside_.end() && in->first == tet; ++in)
+    own.push_back(in->second);
+  solver_->attach(at, corners, own);
+  return found(static_cast<Index>(space_->vertices()));
+}
+
+std::size_t SolidStrings::bytes() const {
+  return sizeof(*this) + (solver_ ? solver_->bytes() : 0) +
+         sources_.capacity() * sizeof(strings::Source);
+}
+
+template void SolidStrings::solve(const TetMesh<float>&, std::span<const PointSource>,
+                                  const PropagateOptions&, DistanceField<float>&);
+template void SolidStrings::solve(const TetMesh<double>&, std::span<const PointSource>,
+                                  const PropagateOptions&, DistanceField<double>&);
+
+template SolidStrings::Found SolidStrings::at(const TetMesh<float>&, Index,
+                                              const std::array<double, 4>&) const;
+template SolidStrings::Found SolidStrings::at(const TetMesh<double>&, Index,
+                                              const std::array<double, 4>&) const;
+
+}  // namespace plexway

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/propagate/distance_field.hpp>
+#include <plexway/propagate/options.hpp>
+#include <plexway/source/point_source.hpp>
+
+#include "strings/solve.hpp"
+
+/// Solids by strings (src/strings): between the library's sources, options and fields, and theirs.
+namespace plexway {
+
+/// What a solve by strings leaves; its memory is used again by the next one.
+class SolidStrings {
+ public:
+  /// The shortest path to a point; its bends and both ends, from the source on, in the solid's frame
+  /// inside (TetMesh::points). No points where no path leads.
+  struct Found {
+    double distance;  ///< in the solid's unit
+    Index source;
+    std::vector<strings::Point> points;
+  };
+
+  /// By one thread: whatever the executor, the same bits.
+  template <class Real>
+  void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
+             const PropagateOptions& options, DistanceField<Real>& field);
+
+  /// To a vertex, or a point of a tetrahedron by one coordinate a corner, inside. Any number of
+  /// threads may ask, one after the other.
+  [[nodiscard]] Found at(Index vertex) const;
+  template <class Real>
+  [[nodiscard]] Found at(const TetMesh<Real>& mesh, Index tet,
+                         const std::array<double, 4>& weight) const;
+
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  [[nodiscard]] Found found(Index vertex) const;
+
+  std::uint64_t identity_ = 0;  // of the solid below
+  double unit_ = 1;
+  std::shared_ptr<const strings::SolidSpace> space_;  // the solid's
+  std::unique_ptr<strings::Solver> solver_;
+  mutable std::mutex asked_;
+  std::vector<strings::Source> sources_;
+  std::vector<std::pair<Index, Index>> inside_;  // tetrahedra with sources inside, and these
+};
+
+}  // namespace plexway
