@@ -105,8 +105,9 @@ void run_poisson(const PoissonCommand& command) {
   table.add("darts", counted(disks.darts.size(), "darts") + ", radius " +
                          short_number(disks.radius) +
                          (disks.maximal ? "" : "; a few more would find room"));
-  table.add("work", counted(disks.thrown, "darts") + " thrown, " +
-                        counted(disks.statistics.expansions, "expansions"));
+  if (command.verbose)
+    table.add("work", counted(disks.thrown, "darts") + " thrown, " +
+                          counted(disks.statistics.expansions, "expansions"));
   phases.tell(json, table);
   report_picture(command.picture, domain, json, table);
   add_written(table, {command.out, command.picture.file, command.picture.html});

@@ -14,6 +14,7 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
       ->each([&command](const std::string&) { command.precision_given = true; })
       ->type_name("NAME");
   add_input_options(app, command);
+  add_verbose_option(app, command);
 }
 
 Precision precision_of(const SamplingCommand& command) {
@@ -46,7 +47,7 @@ PointSummary::PointSummary(const SamplingCommand& command, const Domain& domain,
 void PointSummary::finish(const SamplingCommand& command, const PropagateStatistics& work,
                           const Phases& phases, const Notes& notes) {
   json["expansions"] = work.expansions;
-  table.add("work", counted(work.expansions, "expansions"));
+  if (command.verbose) table.add("work", counted(work.expansions, "expansions"));
   phases.tell(json, table);
   add_written(table, {command.out, command.picture.file, command.picture.html});
   notes.tell(json);
