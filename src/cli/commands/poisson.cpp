@@ -125,6 +125,7 @@ void add_poisson_command(CLI::App& tool, Action& action) {
   CLI::App& app = *tool.add_subcommand(
       "poisson", "Points no nearer to each other than a radius, and none missing (Poisson disks)");
   add_sampling_options(app, *command, "write the points: .csv .npy .obj .ply by extension");
+  add_verbose_option(app, *command);
   add_picture_options(app, command->picture);
   app.add_option("--radius,-r", command->radius,
                  "no two points are nearer, no point of the domain is farther")

@@ -14,7 +14,6 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
       ->each([&command](const std::string&) { command.precision_given = true; })
       ->type_name("NAME");
   add_input_options(app, command);
-  add_verbose_option(app, command);
 }
 
 Precision precision_of(const SamplingCommand& command) {
