@@ -98,6 +98,31 @@ def check_commands(page, text, options):
                     faults.append(f"{page.relative_to(root)}: plexway {command} has no {option[1]}: {line.strip()}")
 
 
+def check_figures():
+    """Rows of the comparison in README.md and docs/ have the figures of the page that measured them."""
+    log = (root / "docs/log/peers.md").read_text()
+    table = log[log.index("## All surfaces"):]
+    names = {"Boost Dijkstra": "Boost Dijkstra", "SciPy Dijkstra": "scipy Dijkstra", "Connectome Workbench": "Workbench",
+             "CGAL, heat method": "CGAL heat", "CGAL, exact paths": "CGAL exact", "plexway `fast`": "plexway, fast",
+             "plexway, `fast`": "plexway, fast", "plexway, the default": "plexway", "plexway `exact`": "plexway, exact",
+             "plexway, `exact`": "plexway, exact"}
+    for page in ("README.md", "docs/explanation/comparison.md"):
+        rows = 0
+        for line in (root / page).read_text().splitlines():
+            cells = [c.strip().replace("**", "") for c in line.strip("|").split("|")]
+            name = next((n for n in names if cells[0].startswith(n)), None) if line.startswith("| ") else None
+            if name is None or len(cells) < 6:
+                continue
+            rows += 1
+            measured = re.search(rf"^\| {re.escape(names[name])} \| (.*)\|$", table, re.M)[1]
+            there = [c.strip() for c in measured.split("|")]
+            for cell in cells[1:]:
+                if re.sub(r" \(.*", "", cell) not in there:
+                    faults.append(f"{page}: {name}: {cell} is not in docs/log/peers.md")
+        if rows < 6:
+            faults.append(f"{page}: the comparison has {rows} rows")
+
+
 def house_words():
     files = subprocess.run(["git", "ls-files"], cwd=root, capture_output=True, text=True).stdout.split()
     total = 0
@@ -130,6 +155,7 @@ def main():
         led |= check_links(page, text)
         if options and "docs/log" not in str(page):
             check_commands(page, text, options)
+    check_figures()
     nav = (root / ".ci" / "mkdocs.yml").read_text()
     for page in (root / "docs").rglob("*.md"):
         if str(page.relative_to(root / "docs")) not in nav:

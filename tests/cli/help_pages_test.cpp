@@ -58,6 +58,7 @@ TEST_CASE("the manual page and the completions know every command and option") {
     }
   }
   CHECK(options > 100);
+  CHECK(man.find("\\e") == man.npos);  // no escape is shown as text
   CHECK(run_tool({"--help-page", "teapot"}).code == 2);
 }
 

@@ -112,7 +112,7 @@ Table to_table(const DistanceCommand& command, const Domain& domain, const AnyDo
   }
   if (field.triangulation.done != Triangulation::input)
     table.add("triangles", describe(field.triangulation));
-  add_report(report_of(command, domain, field, outcome), table);
+  add_report(report_of(command, domain, field, outcome), table, command.verbose);
   std::string mesh = domain.mesh_seconds() ? ", mesh " + short_time(*domain.mesh_seconds()) : "";
   if (domain.neighbour_seconds()) mesh = ", neighbours " + short_time(*domain.neighbour_seconds());
   table.add("time", "load " + short_time(domain.load_seconds()) + mesh + ", build " +
@@ -336,6 +336,7 @@ void add_distance_command(CLI::App& tool, Action& action, const Among* among) {
   add_mask_option(app, command->mask);
   add_picture_options(app, command->picture, true);
   add_input_options(app, *command);
+  add_verbose_option(app, *command);
   app.footer(
       "Examples:\n"
       "  plexway distance knot.ply --source vertex:0 --out distance.ply\n"

@@ -319,7 +319,7 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   for (std::size_t i = 0; i < sources.texts.size(); ++i)
     table.add(sources.texts.size() == 1 ? "source" : "source " + std::to_string(i),
               sources.texts[i]);
-  add_report(report, table);
+  add_report(report, table, command.verbose);
   table.add("time", "build " + short_time(build) + ", solve " + short_time(solve) + " (" +
                         describe(team) + ", " + name_of(field.accuracy) + ", " +
                         command.solve.precision + ")");

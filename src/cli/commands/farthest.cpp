@@ -83,6 +83,7 @@ void add_farthest_command(CLI::App& tool, Action& action) {
   CLI::App& app = *tool.add_subcommand(
       "farthest", "Vertices one after the other, each the farthest from those before");
   add_sampling_options(app, *command, "write the points and how far each was: .csv .npy .obj .ply");
+  add_verbose_option(app, *command);
   add_picture_options(app, command->picture);
   app.add_option("--count,-n", command->count, "so many points, the first ones included")
       ->check(CLI::NonNegativeNumber)

@@ -108,6 +108,7 @@ void add_pairs_command(CLI::App& tool, Action& action, const Among* among) {
   add_triangulation_option(app, command->triangulation);
   add_metric_option(app, command->metric);
   add_input_options(app, *command);
+  add_verbose_option(app, *command);
   app.footer(
       "Run again after it was ended, the same command goes on where it was.\n\n"
       "Examples:\n"

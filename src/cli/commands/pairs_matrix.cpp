@@ -171,10 +171,10 @@ void print(const MatrixCommand& command, const Domain& domain, const PairFiles& 
     json["seconds"]["load"] = domain.load_seconds();
     if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
     json["seconds"]["solve"] = report.seconds;
-    table.add(
-        "work",
-        counted(report.solved.rows, "rows") + " solved" +
-            (counts ? ", " + counted(report.solved.statistics.expansions, "expansions") : ""));
+    table.add("work", counted(report.solved.rows, "rows") + " solved" +
+                          (counts && command.verbose
+                               ? ", " + counted(report.solved.statistics.expansions, "expansions")
+                               : ""));
     table.add("time", short_time(report.seconds));
     if (files.sparse()) {
       json["entries"] = report.entries;

@@ -180,7 +180,7 @@ void report(const PathCommand& command, const Domain& domain, const PathOutcome&
   json["updates"] = outcome.statistics.updates;
   json["executor"] = outcome.executor;
   if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(outcome.triangulation);
-  table.add("work", counted(outcome.statistics.expansions, "expansions"));
+  if (command.verbose) table.add("work", counted(outcome.statistics.expansions, "expansions"));
   table.add("time", "load " + short_time(domain.load_seconds()) + ", build " +
                         short_time(outcome.build) + ", solve " + short_time(outcome.solve) +
                         ", trace " + short_time(outcome.trace));
@@ -354,6 +354,7 @@ void add_path_command(CLI::App& tool, Action& action) {
   add_mask_option(app, command->mask);
   add_picture_options(app, command->picture);
   add_input_options(app, *command);
+  add_verbose_option(app, *command);
   app.footer(
       "Examples:\n"
       "  plexway path knot.ply --from vertex:0 --to vertex:99 --out path.obj\n"

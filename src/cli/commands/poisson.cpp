@@ -105,8 +105,9 @@ void run_poisson(const PoissonCommand& command) {
   table.add("darts", counted(disks.darts.size(), "darts") + ", radius " +
                          short_number(disks.radius) +
                          (disks.maximal ? "" : "; a few more would find room"));
-  table.add("work", counted(disks.thrown, "darts") + " thrown, " +
-                        counted(disks.statistics.expansions, "expansions"));
+  if (command.verbose)
+    table.add("work", counted(disks.thrown, "darts") + " thrown, " +
+                          counted(disks.statistics.expansions, "expansions"));
   phases.tell(json, table);
   report_picture(command.picture, domain, json, table);
   add_written(table, {command.out, command.picture.file, command.picture.html});
@@ -124,6 +125,7 @@ void add_poisson_command(CLI::App& tool, Action& action) {
   CLI::App& app = *tool.add_subcommand(
       "poisson", "Points no nearer to each other than a radius, and none missing (Poisson disks)");
   add_sampling_options(app, *command, "write the points: .csv .npy .obj .ply by extension");
+  add_verbose_option(app, *command);
   add_picture_options(app, command->picture);
   app.add_option("--radius,-r", command->radius,
                  "no two points are nearer, no point of the domain is farther")

@@ -46,7 +46,7 @@ PointSummary::PointSummary(const SamplingCommand& command, const Domain& domain,
 void PointSummary::finish(const SamplingCommand& command, const PropagateStatistics& work,
                           const Phases& phases, const Notes& notes) {
   json["expansions"] = work.expansions;
-  table.add("work", counted(work.expansions, "expansions"));
+  if (command.verbose) table.add("work", counted(work.expansions, "expansions"));
   phases.tell(json, table);
   add_written(table, {command.out, command.picture.file, command.picture.html});
   notes.tell(json);

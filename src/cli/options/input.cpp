@@ -52,6 +52,10 @@ void add_report_options(CLI::App& app, InputCommand& command, const char* quiet)
   app.add_flag("--quiet,-q", command.quiet, quiet);
 }
 
+void add_verbose_option(CLI::App& app, InputCommand& command) {
+  app.add_flag("--verbose", command.verbose, "the summary also counts the work that was done");
+}
+
 void add_input_options(CLI::App& app, InputCommand& command, const char* quiet) {
   app.add_option("--as", command.as, as_help)->type_name("KIND");
   app.add_flag("--strict", command.strict,

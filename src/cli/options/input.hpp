@@ -26,7 +26,7 @@ struct InputCommand {
   std::optional<double> weld;
   FillArguments fill;
   CloudPreparation cloud;
-  bool json = false, quiet = false, strict = false;
+  bool json = false, quiet = false, strict = false, verbose = false;
 };
 
 /// What INPUT may be, for the help of the commands.
@@ -39,11 +39,12 @@ inline constexpr const char* usual_quiet = "no summary, notes or progress; error
 
 ///@{
 /// Adds INPUT; INPUT, MORE and --weld; --json and --quiet; or these and all that says how to read a
-/// domain: --as, and groups about filling and clouds.
+/// domain: --as, and groups about filling and clouds; --verbose, of commands that solve.
 void add_input(CLI::App& app, InputCommand& command, const std::string& help = input_help());
 void add_inputs(CLI::App& app, InputCommand& command);
 void add_report_options(CLI::App& app, InputCommand& command, const char* quiet = usual_quiet);
 void add_input_options(CLI::App& app, InputCommand& command, const char* quiet = usual_quiet);
+void add_verbose_option(CLI::App& app, InputCommand& command);
 ///@}
 
 /// What the library tells while it works, on the line; `progress` must stay.

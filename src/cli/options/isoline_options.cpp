@@ -26,7 +26,7 @@ void add_isoline_options(CLI::App& command, IsolineOptions& options) {
 
 void check_isolines(const IsolineOptions& options, const std::string& input) {
   if (options.out.empty() != !options.step)
-    throw UsageError("--isoline-step STEP and --isolines-out FILE need each other");
+    throw UsageError("give --isoline-step STEP and --isolines-out FILE both");
   if (options.step && !(*options.step > 0 && std::isfinite(*options.step)))
     throw UsageError("--isoline-step: the step must be > 0");
   check_output_name(options.out, input, level_set_extensions(), "--isolines-out");

@@ -30,7 +30,7 @@ void add_report(const DistanceReport& report, Json& json) {
   }
 }
 
-void add_report(const DistanceReport& report, Table& table) {
+void add_report(const DistanceReport& report, Table& table, bool verbose) {
   const PropagateStatistics& statistics = report.statistics;
   std::string reached =
       std::to_string(report.reached) + " of " + counted(report.vertices, "vertices");
@@ -40,8 +40,9 @@ void add_report(const DistanceReport& report, Table& table) {
   if (report.reached > 0 && report.mean_distance)
     reached += ", the mean " + short_number(*report.mean_distance);
   table.add("reached", reached);
-  table.add("work", counted(statistics.expansions, "expansions") + ", " +
-                        counted(statistics.updates, "updates"));
+  if (verbose)
+    table.add("work", counted(statistics.expansions, "expansions") + ", " +
+                          counted(statistics.updates, "updates"));
   if (report.ranks == 0) return;
   std::uint64_t most = 0;
   for (const std::uint64_t bytes : report.counts.peak_bytes) most = std::max(most, bytes);

@@ -24,9 +24,9 @@ struct DistanceReport {
 };
 
 ///@{
-/// How far it got, the work, and of ranks what they sent.
+/// How far it got, the work (in the table if it is verbose), and of ranks what they sent.
 void add_report(const DistanceReport& report, Json& json);
-void add_report(const DistanceReport& report, Table& table);
+void add_report(const DistanceReport& report, Table& table, bool verbose);
 ///@}
 
 }  // namespace plexway::cli

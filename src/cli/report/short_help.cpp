@@ -13,11 +13,10 @@ constexpr std::size_t columns = 80, most_options = 12, examples = 3;
 
 // Options that most need, the first ones first; a command has some of them.
 constexpr std::array most_needed = {
-    "source", "from",   "to",         "count",   "radius",     "sources",
-    "truth",  "out",    "picture",    "cells",   "dual",       "accuracy",
-    "mask",   "metric", "as",         "repair",  "max-volume", "voxel",
-    "astar",  "what",   "checkpoint", "resume",  "precision",  "triangulation",
-    "json",   "quiet",  "html",       "executor"};
+    "source", "from",       "to",    "count",      "radius",        "sources", "truth",
+    "out",    "picture",    "cells", "dual",       "accuracy",      "mask",    "metric",
+    "as",     "repair",     "what",  "checkpoint", "resume",        "json",    "quiet",
+    "astar",  "max-volume", "voxel", "precision",  "triangulation", "html",    "executor"};
 
 // So much of it as fits, in whole words.
 std::string cut(std::string text, std::size_t room) {
@@ -57,7 +56,9 @@ std::string short_help(const CLI::App& app) {
   const std::string name = is_tool ? "plexway" : "plexway " + app.get_name();
   std::string usage = "Usage: " + name;
   for (const CLI::Option* option : app.get_options())
-    if (option->get_positional()) usage += " " + option->get_name(true);
+    if (option->get_positional())
+      usage += option->get_required() ? " " + option->get_name(true)
+                                      : " [" + option->get_name(true) + "...]";
   std::string text = cut(app.get_description(), columns) + "\n" + usage +
                      (is_tool ? " COMMAND ..." : " [OPTIONS]") + "\n\n";
   if (is_tool)
