@@ -12,6 +12,7 @@
 #include "complex/joined_pieces.hpp"
 #include "executors/checks.hpp"
 #include "executors/crowd_watch.hpp"
+#include "executors/mixed_lines.hpp"
 #include "executors/owned_work.hpp"
 #include "executors/run.hpp"
 #include "executors/team.hpp"
@@ -222,6 +223,7 @@ void solve_points(const E& executor, const MixedComplex<Real>& domain,
     check_cracks(domain, sources);
     solve_joined(executor, domain, sources, options, kept, field);
   }
+  field.statistics.raised_vertices += MixedPlaces<Real>(domain).raise(sources, field);
   if (sources.size() == 1) field.label.clear();
 }
 
