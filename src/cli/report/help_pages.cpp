@@ -72,7 +72,9 @@ std::string roff_options(const CLI::App& app) {
       if (arguments) {
         page += "\\fI" + roff(option->get_name(true)) + "\\fR\n";
       } else {
-        page += "\\fB" + roff(joined(names_of(*option), "\\fR, \\fB")) + "\\fR";
+        std::vector<std::string> names = names_of(*option);
+        for (std::string& name : names) name = roff(name);
+        page += "\\fB" + joined(names, "\\fR, \\fB") + "\\fR";
         page += value.empty() ? "\n" : " \\fI" + roff(value) + "\\fR\n";
       }
       page += roff(one_line(option->get_description())) + "\n";
