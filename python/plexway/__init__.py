@@ -45,6 +45,7 @@ from ._results import Cells, Disks, FarthestPoints, Field, Isosurfaces, Path, Pi
 from ._sources import (
     Ball,
     Boundary,
+    OutOfRange,
     Point,
     Polyline,
     Segment,
@@ -73,6 +74,7 @@ __all__ = [
     "Isosurfaces",
     "Mixed",
     "NotBuilt",
+    "OutOfRange",
     "Path",
     "Picture",
     "Point",

@@ -68,6 +68,7 @@ class Domain:
     """
 
     _native: Any
+    _diagonal: Optional[float] = None
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
@@ -512,8 +513,8 @@ class Domain:
 
         Notes
         -----
-        On surfaces and clouds a row costs what it reaches, not what the domain is large, with
-        ``accuracy='fast'``.
+        On surfaces and clouds a row costs what it reaches and a look at each vertex (30 ns); with
+        ``accuracy='fast'`` only what it reaches.
         """
         csr_matrix = _scipy_sparse().csr_matrix
         _check_near(radius, count)
@@ -766,8 +767,17 @@ class Domain:
         Returns
         -------
         Points
+            How far each is: ``np.linalg.norm(points.positions - point, axis=1)``.
         """
-        return Points(self, located(self, np.asarray(point, float), none_is_well=True))
+        rows = np.asarray(point, float)
+        if rows.ndim in (1, 2) and rows.shape[-1] == 2:
+            rows = np.insert(rows, 2, 0, axis=-1)
+        if rows.ndim not in (1, 2) or (rows.size and rows.shape[-1] != 3):
+            raise ValueError(f"point: expected shape (3,) or (k, 3), got {rows.shape}")
+        if not np.all(np.isfinite(rows)):
+            raise _plexway.UsageError("point: a coordinate is not finite")
+        found = [self._native.closest(xyz)[0] for xyz in rows.reshape(-1, 3).tolist()]
+        return Points(self, found)
 
     def picture(
         self,

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _plexway
 from ._arrays import plain
+from ._warnings import warn
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -150,12 +151,39 @@ class Boundary(Source):
     offset: float = 0.0
 
 
+class OutOfRange(_plexway.UsageError, IndexError):  # type: ignore[misc,name-defined]
+    """A vertex or a simplex that the domain does not have."""
+
+
+OutOfRange.__module__ = "plexway"
+
+
 def index(value: Any, count: int, what: str) -> int:
     """`value` as a number from 0 to below `count`; IndexError says what is out of range."""
     number = operator.index(value)
     if not 0 <= number < count:
-        raise _plexway.UsageError(f"{what} {number}: there are {count}, counted from 0")
+        raise OutOfRange(f"{what} {number}: there are {count}, counted from 0")
     return number
+
+
+def _diagonal(domain: Any) -> float:
+    """Of the box around all positions."""
+    if domain._diagonal is None:
+        at = domain.vertices
+        domain._diagonal = float(np.linalg.norm(at.max(axis=0) - at.min(axis=0)))
+    return float(domain._diagonal)
+
+
+def _closest(domain: Any, xyz: List[float], planar: bool) -> Any:
+    """The closest point of the domain; a warning says where that is far away."""
+    if planar and domain.vertices is not None and np.any(domain.vertices[:, 2:]):
+        raise ValueError(f"the point {xyz[:2]} has two coordinates, those of the domain have three")
+    point, away = domain._native.closest(xyz)
+    if away > 0.01 * _diagonal(domain):
+        times = away / (_diagonal(domain) or 1)
+        text = f"the point {xyz} is {away:.4g} from the domain ({times:.2g} of its diagonal)"
+        warn([text + ": the closest point was taken"], domain)
+    return point
 
 
 def place(domain: Any, at: Any) -> Any:
@@ -177,7 +205,7 @@ def place(domain: Any, at: Any) -> Any:
         xyz = [float(x) for x in array] + [0.0] * (3 - len(array))
         if not np.all(np.isfinite(xyz)):
             raise _plexway.UsageError(f"the point {xyz} is not finite")
-        return domain._native.closest(xyz)
+        return _closest(domain, xyz, len(array) == 2)
     raise ValueError(
         f"expected a vertex (an integer) or a point (three floats), got {at!r:.60}"
     )
@@ -187,7 +215,7 @@ def located(domain: Any, source: Any, none_is_well: bool = False) -> List[Any]:
     """A source, or several, as the library has them: one each.
 
     Integers in one row are so many vertices; truth values, one a vertex, those that are true; three
-    floats are a point in space, and rows of three numbers of any type are points.
+    floats are a point in space, and rows of three floats are points.
     """
     if type(source) is int:
         return [_plexway.Point(index(source, domain.vertex_count, "vertex"), 0.0)]
@@ -209,7 +237,12 @@ def located(domain: Any, source: Any, none_is_well: bool = False) -> List[Any]:
                 f"sources by truth values: expected shape ({domain.vertex_count},), got {array.shape}"
             )
         array = np.flatnonzero(array)
-    if array.dtype.kind in "fiu" and array.ndim == 2 and array.shape[1] in (2, 3) and len(array):
+    if array.dtype.kind in "iu" and array.ndim == 2 and array.size:
+        raise ValueError(
+            f"a source of integers in rows, {array.dtype} of shape {array.shape}: vertices are one "
+            "row, [0, 1], and points are floats, [[0.0, 1.0, 0.0]]"
+        )
+    if array.dtype.kind == "f" and array.ndim == 2 and array.shape[1] in (2, 3) and len(array):
         return [place(domain, row) for row in array]
     if array.dtype.kind in "iu" and array.ndim <= 1 and array.size:
         count = domain.vertex_count

@@ -4,7 +4,9 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include <plexway/any/open_simplices.hpp>
 #include <plexway/complex/point_cloud.hpp>
@@ -299,7 +301,10 @@ void bind_domain(py::module_& module) {
       .def("closest",
            [](const Domain& d, const std::array<double, 3>& point) {
              const py::gil_scoped_release free;
-             return d.outside(d.open().closest(point));
+             const PointSource found = d.open().closest(point);
+             const auto at = d.open().position(found);
+             return std::pair(d.outside(found),
+                              std::hypot(at[0] - point[0], at[1] - point[1], at[2] - point[2]));
            })
       .def("position",
            [](const Domain& d, const PointSource& point) { return d.shape().position(point); })

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include <plexway/any/complex.hpp>
 #include <plexway/complex/point_cloud.hpp>
 
 #include "any/bent_crossings.hpp"
@@ -13,6 +14,7 @@
 #include "any/collapsed.hpp"
 #include "any/rim_detours.hpp"
 #include "any/spelling.hpp"
+#include "any/survey.hpp"
 #include "any/violations.hpp"
 #include "any/words.hpp"
 
@@ -82,6 +84,26 @@ std::vector<bool> used_in(const AnyShape& domain) {
   return used;
 }
 
+// What is known of a solid by its edges: that paths bend at notches, and that tetrahedra which
+// share edges alone look like quads of a curved surface.
+std::string solid_sentence(const AnyDomain& solver) {
+  if (solver.kind() != DomainKind::solid) return "";
+  return with_complex(solver, []<class C>(const C& complex) -> std::string {
+    if constexpr (C::kind == DomainKind::solid) {
+      const SolidSummary& solid = complex.summary();
+      if (solid.notch_edges > 0)
+        return "paths bend around " + counted(solid.notch_edges, "edges") +
+               " of the boundary, which no rule sees in a solid by lengths or tensors: distances "
+               "behind them may be up to a sixth too short";
+      if (solid.boundary_faces == 4 * solid.tets && solid.pinched_edges > 0)
+        return "no two of the " + counted(solid.tets, "tetrahedra") +
+               " share a face; if they are quads of a surface, split each into the triangles "
+               "(0, 1, 2) and (0, 2, 3)";
+    }
+    return "";
+  });
+}
+
 // Why not all was reached.
 std::string why_unreached(const AnyDomain& solver, Reader reader) {
   const AnyShape& domain = solver.shape();
@@ -98,6 +120,14 @@ std::string why_unreached(const AnyDomain& solver, Reader reader) {
       why.append(", ").append(counted(apart, "vertices")).append(apart == 1 ? " is" : " are");
       why.append(" in none of its ").append(domain.simplex_name());
     }
+    const auto* const surface = std::get_if<io::Triangles>(&domain.data());
+    if (surface != nullptr && solver.components() > 1 && !surface->positions.empty())
+      if (const std::size_t twins = count_coincident(surface->positions, surface->triangles);
+          twins > 0)
+        why.append(", and ")
+            .append(counted(twins, "vertices"))
+            .append(twins == 1 ? " lies exactly where another one does"
+                               : " lie exactly where another does");
   }
   return why;
 }
@@ -138,6 +168,7 @@ std::vector<Remark> domain_remarks(const AnyDomain& solver, Reader reader) {
   if (std::string left_out = collapsed_sentence(domain); !left_out.empty())
     remark(std::move(left_out));
   for (const std::string& note : domain.report().notes) remark(note, false);
+  if (std::string solid = solid_sentence(solver); !solid.empty()) remark(std::move(solid));
   if (const MeasuredLengths* lengths = solver.lengths(); lengths != nullptr && lengths->smoothed)
     remark(smoothed_sentence() + said(Advice::meant));
   if (std::string broken = violations_sentence(solver); !broken.empty()) remark(std::move(broken));

@@ -17,11 +17,20 @@
 #include "any/mixed_domain.hpp"
 #include "any/prepared_kind.hpp"
 #include "any/shape_state.hpp"
+#include "any/words.hpp"
 #include "complex/kept_parts.hpp"
 #include "executors/checks.hpp"
 
 namespace plexway {
 namespace {
+
+// Rows of four vertices may be meant as quads.
+void check_flat(const SolidSummary& solid) {
+  if (solid.degenerate_tets == solid.tets)
+    throw InputError("all " + counted(solid.tets, "tetrahedra") +
+                     " are flat; if they are quads of a surface, split each into the triangles "
+                     "(0, 1, 2) and (0, 2, 3)");
+}
 
 /// Solids, wireframes, clouds and simplices: solved as they are.
 template <class Complex>
@@ -29,7 +38,9 @@ class PreparedPlain final : public PreparedKind<Complex> {
  public:
   template <class Make>
   PreparedPlain(const AnyShape& shape, bool measured, const Make& make)
-      : PreparedKind<Complex>(shape, measured), complex_(make()) {}
+      : PreparedKind<Complex>(shape, measured), complex_(make()) {
+    if constexpr (Complex::kind == DomainKind::solid) check_flat(complex_.summary());
+  }
 
   /// Is it one of that shape?
   [[nodiscard]] bool fits(const AnyShape& shape) const {

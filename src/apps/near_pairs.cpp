@@ -11,6 +11,7 @@
 
 #include "apps/infinity.hpp"
 #include "apps/row_work.hpp"
+#include "executors/supported.hpp"
 
 namespace plexway {
 namespace {
@@ -84,9 +85,11 @@ class NearWorker {
 
   void solve(const apps::RowSource& source, std::size_t row, const PropagateOptions& options) {
     const TriangleMesh<Real>* sheet = sheet_of(domain_);
-    if (source.point() != nullptr && sheet != nullptr &&
-        (D::kind == DomainKind::surface || source.point()->vertex != none) &&
-        support(Purpose::searches, *sheet, options))
+    const bool near = source.point() != nullptr && sheet != nullptr &&
+                      (D::kind == DomainKind::surface || source.point()->vertex != none);
+    if (near && by_windows(options))
+      search(sheet->unit(), [&](double radius) { return solve_within(radius, source, options); });
+    else if (near && support(Purpose::searches, *sheet, options))
       search(*sheet, *source.point(), options);
     else
       solve_all(source.list(), options);
@@ -95,9 +98,26 @@ class NearWorker {
   }
 
  private:
-  void keep(Index vertex, Real distance) {
-    if (distance > static_cast<Real>(limits_.radius) || !(distance < infinity)) return;
+  void keep(Index vertex, Real distance, double radius) {
+    if (distance > static_cast<Real>(radius) || !(distance < infinity)) return;
     columns_.each(vertex, [&](Index column) { entries_.push_back({column, distance}); });
+  }
+
+  bool by_windows(const PropagateOptions& options) const {
+    const auto cell = detail::with(combination<Serial, D>(), domain_.metric(), options);
+    return resolved(options.accuracy, cell) != Accuracy::fast();
+  }
+
+  // The entries of the field that was solved; how many vertices it reached.
+  std::size_t take(double radius) {
+    entries_.clear();
+    std::size_t reached = 0;
+    for (std::size_t v = 0; v < field_.distance.size(); ++v) {
+      reached += field_.distance[v] < infinity;
+      keep(static_cast<Index>(v), field_.distance[v], radius);
+    }
+    account(field_.statistics, field_.complete);
+    return reached;
   }
 
   void solve_all(const SourceList& source, PropagateOptions options) {
@@ -105,14 +125,43 @@ class NearWorker {
     // centre is beyond it.
     options.radius = D::kind == DomainKind::wireframe ? limits_.radius : infinity;
     plexway::solve(Serial{}, domain_, source, options, workspace_, field_);
-    entries_.clear();
-    for (std::size_t v = 0; v < field_.distance.size(); ++v)
-      keep(static_cast<Index>(v), field_.distance[v]);
-    account(field_.statistics, field_.complete);
+    take(limits_.radius);
+  }
+
+  // Nor do windows miss anything, but labels that take over from them.
+  std::size_t solve_within(double radius, const apps::RowSource& source, PropagateOptions options) {
+    options.radius = radius;
+    plexway::solve(Serial{}, domain_, source.list(), options, workspace_, field_);
+    if (field_.accuracy == Accuracy::fast() && radius < infinity) {
+      options.radius = infinity;
+      plexway::solve(Serial{}, domain_, source.list(), options, workspace_, field_);
+    }
+    return take(radius);
+  }
+
+  // `look` takes all entries within a radius and returns how much was reached.
+  template <class Look>
+  void search(double unit, const Look& look) {
+    const std::size_t enough = std::min(limits_.nearest, column_count_);
+    // A disk with as many vertices as are wanted, were columns spread evenly: the same for all
+    // rows, so that a row's bits do not depend on the rows before.
+    const double share = static_cast<double>(column_count_) /
+                         static_cast<double>(std::max<std::size_t>(domain_.vertex_count(), 1));
+    double radius = limits_.nearest == none
+                        ? limits_.radius
+                        : unit * (2 + std::sqrt(static_cast<double>(enough) / share));
+    for (std::size_t reached_before = none;;) {
+      radius = std::min(radius, limits_.radius);
+      const std::size_t reached = look(radius);
+      if (radius >= limits_.radius || entries_.size() >= enough) return;
+      // Where nothing more is reached the rest is far away, or not joined.
+      radius = reached == reached_before ? infinity : 2 * radius;
+      reached_before = reached;
+    }
   }
 
   void search(const TriangleMesh<Real>& sheet, const PointSource& source,
-              PropagateOptions options) {
+              const PropagateOptions& options) {
     if (!search_) search_ = std::make_unique<BoundedSearch<Real>>(sheet);
     PointSource moved = source;
     if (moved.vertex != none) {
@@ -121,28 +170,14 @@ class NearWorker {
                          " is out of range, there are " + std::to_string(domain_.vertex_count()));
       moved.vertex = on_sheet(domain_, moved.vertex);
     }
-    const std::size_t enough = std::min(limits_.nearest, column_count_);
-    // A disk with as many vertices as are wanted, were columns spread evenly: the same for all
-    // rows, so that a row's bits do not depend on the rows before.
-    const double share = static_cast<double>(column_count_) /
-                         static_cast<double>(std::max<std::size_t>(domain_.vertex_count(), 1));
-    double radius = limits_.nearest == none
-                        ? limits_.radius
-                        : sheet.unit() * (2 + std::sqrt(static_cast<double>(enough) / share));
-    for (std::size_t reached_before = none;;) {
-      radius = std::min(radius, limits_.radius);
-      const std::size_t reached = look_within(radius, moved, sheet.unit(), options);
-      if (radius >= limits_.radius || entries_.size() >= enough) return;
-      // Where nothing more is reached the rest is far away, or not joined.
-      radius = reached == reached_before ? infinity : 2 * radius;
-      reached_before = reached;
-    }
+    search(sheet.unit(),
+           [&](double radius) { return look_within(radius, moved, sheet.unit(), options); });
   }
 
   // All entries no farther than `radius`, searched an edge farther, so that each is as an endless
   // search has it; how much was reached.
   std::size_t look_within(double radius, const PointSource& source, double unit,
-                          PropagateOptions& options) {
+                          PropagateOptions options) {
     for (double margin = 2.5 * unit;;) {
       options.radius = radius + margin;
       const Surroundings<Real>& found =
@@ -153,8 +188,7 @@ class NearWorker {
         continue;
       }
       entries_.clear();
-      for (const auto& [vertex, distance, label] : found.vertices)
-        if (distance <= static_cast<Real>(radius)) keep(vertex, distance);
+      for (const auto& [vertex, distance, label] : found.vertices) keep(vertex, distance, radius);
       return found.statistics.reached_simplices;
     }
   }

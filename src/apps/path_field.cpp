@@ -117,13 +117,15 @@ double linear_in(const TriangleMesh<Real>& mesh, std::span<const Index> outer,
 template <class Real>
 std::pair<Index, std::array<double, 3>> middle(const TriangleMesh<Real>& mesh,
                                                const IntrinsicDelaunay* delaunay, Index simplex) {
-  constexpr double third = 1. / 3, least = 1e-6;
+  constexpr double third = 1. / 3, least = 1e-9;
   std::array<double, 3> at = {third, third, third};
   Index face = simplex;
   if (delaunay != nullptr) {
     const PointSource there = delaunay->to_intrinsic(PointSource::in(simplex, at));
     face = there.simplex;
-    for (std::size_t i = 0; i < 3; ++i) at[i] = least + (1 - 3 * least) * there.barycentric[i];
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) sum += at[i] = std::max(there.barycentric[i], least);
+    for (double& share : at) share /= sum;
   }
   const auto [f, turned] = mesh.inside_face(face);
   return {f, inside({at[0], at[1], at[2], 0}, turned)};

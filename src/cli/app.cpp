@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -62,6 +63,13 @@ const CLI::App& innermost(const CLI::App& tool) {
 
 // What was probably meant: an option for what begins as one, else a command.
 std::string hint(const CLI::App& app, const std::string& typed) {
+  // Commands that know the same by another name.
+  for (const auto& [known, words] :
+       {std::pair<std::string, std::vector<std::string>>{"--from", {"-s", "--source", "--sources"}},
+        {"--source", {"-f", "--from", "--start"}}})
+    if (app.get_option_no_throw(known) != nullptr &&
+        std::find(words.begin(), words.end(), typed) != words.end())
+      return "; did you mean '" + known + "'?";
   std::vector<std::string> words;
   if (typed.starts_with("-")) {
     for (const CLI::Option* option : app.get_options())

@@ -33,6 +33,9 @@ class NumberRange {
   static void check_simplex(const char* simplex, std::size_t number, double longest) {
     static const double least = 8 * std::sqrt(std::sqrt(double{std::numeric_limits<Real>::min()}));
     if (longest == 0 || longest >= least) return;
+    if (longest < 1e-30)  // no simplex is meant to be so small beside the others
+      throw PrecisionError(named(simplex, number) + "its longest edge is " + text(longest) +
+                           " of the mean: look for a vertex far off");
     refuse(named(simplex, number) + "its longest edge, " + text(longest) + " of the mean, is",
            "scale it up or leave it out");
   }

@@ -11,6 +11,7 @@
 #include <plexway/error.hpp>
 
 #include "complex/number_range.hpp"
+#include "complex/one_length.hpp"
 #include "complex/simplex_flat.hpp"
 #include "complex/simplex_gluing.hpp"
 #include "complex/simplex_shape.hpp"
@@ -39,7 +40,7 @@ void check_simplices(std::size_t vertices, std::span<const std::array<Index, Sid
     }
 }
 
-// Two vertices have one edge: the mean of what its simplices say.
+// Two vertices have one edge: the mean of what its simplices say, but for rounding alike.
 template <int N>
 void agree_on_edges(std::span<const std::array<Index, N + 1>> simplices,
                     std::vector<std::array<double, N*(N + 1) / 2>>& lengths) {
@@ -68,7 +69,12 @@ void agree_on_edges(std::span<const std::array<Index, N + 1>> simplices,
     const double count = static_cast<double>(end - run);
     double mean = 0;
     bool equal = true;
+    const auto longest = [&](const Place& p) { return longest_of(lengths[p.at / Layout::edges]); };
     for (auto p = run; p != end; ++p) {
+      if (length(*p) != length(*run) &&
+          differ_much(length(*p), length(*run), std::max(longest(*p), longest(*run))))
+        refuse_two_lengths(static_cast<Index>(p->ends >> 32), static_cast<Index>(p->ends),
+                           length(*run), length(*p));
       mean += length(*p) / count;
       equal = equal && length(*p) == length(*run);
     }

@@ -47,9 +47,9 @@ bool SpokeHull::wrap_without_ties(std::size_t first, double largest) {
     vs[i] = static_cast<float>(spokes_[i].v);
   }
   for (std::size_t i = count; i % lanes != 0; ++i) us[i] = vs[i] = 0;
-  // A tie is a turn of at most 2e-6 largest |b|, as no image is farther away than twice the
+  // A tie is a turn of at most 2e-4 largest |b|, as no image is farther away than twice the
   // largest; the rest is for what single precision is off.
-  const float tie = static_cast<float>(3.5e-6 * largest);
+  const float tie = static_cast<float>(3.5e-4 * largest);
   const float off = static_cast<float>(1.5e-6 * largest * largest);
   const auto bit = [](std::size_t i) { return std::uint64_t{1} << i; };
   std::uint64_t others = (bit(count - 1) << 1) - 1 - bit(first);
@@ -107,8 +107,9 @@ std::size_t SpokeHull::next_of_ties(Index place, std::size_t at) {
     if (i == at) continue;
     const double u = spokes_[i].u - a.u, v = spokes_[i].v - a.v;
     const double turn = bu * v - bv * u, square = u * u + v * v;
-    constexpr double tie = 1e-12;  // squares
-    if (best != spokes_.size() && turn * turn <= tie * bb * square) {
+    constexpr double near_tie = 1e-8, tie = 1e-12;  // squares of sines
+    if (best != spokes_.size() && turn * turn <= (at_.empty() ? tie : near_tie) * bb * square &&
+        (at_.empty() || on_one_circle({place, a.place, spokes_[best].place, spokes_[i].place}))) {
       if (bu * u + bv * v > 0) {
         ties_.push_back(square > bb ? best : i);
         if (!(square > bb)) continue;
@@ -127,6 +128,23 @@ std::size_t SpokeHull::next_of_ties(Index place, std::size_t at) {
   }
   if (!ties_.empty()) return break_ties(place, at, best);
   return best;
+}
+
+// By Ptolemy: of the products of opposite distances between four places the largest is then the sum
+// of the others; else opposite angles lack a sine of pi. The same bits from each of the four.
+bool SpokeHull::on_one_circle(std::array<Index, 4> places) const {
+  constexpr double tie = 1e-12, rounding = 1e-15;  // squares
+  std::sort(places.begin(), places.end());
+  const auto apart = [&](std::size_t i, std::size_t j) {
+    const Point3 d = minus(at_[places[i]], at_[places[j]]);
+    return std::sqrt(dot(d, d));
+  };
+  std::array<double, 3> product = {apart(0, 1) * apart(2, 3), apart(0, 2) * apart(1, 3),
+                                   apart(0, 3) * apart(1, 2)};
+  std::sort(product.begin(), product.end());
+  const double sum = product[0] + product[1];
+  return sum * sum - product[2] * product[2] <=
+         tie * product[0] * product[1] + rounding * sum * sum;
 }
 
 // Several on one circle with the place. All agree that the lowest of them sees all others.

@@ -180,7 +180,10 @@ std::size_t TetEdgeFans::walk(const Start& start, Index a, Index b) {
   }
   fan_ends_.push_back(from);
   fan_ends_.push_back(to);
-  if (is_reflex(a, b)) add_reflex(a, b, from, to);
+  if (!is_reflex(a, b)) return fan_.size();
+  add_reflex(a, b, from, to);
+  if (!embedded_)
+    for (const Index in : fan_) found_.reflex.back().angle += dihedral_at(in, a, b);
   return fan_.size();
 }
 

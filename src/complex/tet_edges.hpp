@@ -26,6 +26,7 @@ struct TetTopology {
     std::array<Vector3<double>, 2> end, normal;
     std::array<Index, 2> vertex;
     Vector3<double> solid;  ///< away from the edge into the solid, between both faces
+    double angle = 0;       ///< of solid around; found where tetrahedra have a pose each
   };
   std::vector<Reflex> reflex;       ///< those in a straight row are one
   std::vector<Index> reflex_list;   ///< ReflexEntry, by tetrahedron

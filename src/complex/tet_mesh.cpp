@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -10,6 +11,7 @@
 
 #include "complex/building_blocks.hpp"
 #include "complex/number_range.hpp"
+#include "complex/one_length.hpp"
 #include "complex/simplex_order.hpp"
 #include "complex/tet_edges.hpp"
 #include "complex/tet_gluing.hpp"
@@ -109,6 +111,28 @@ TetLayout lay_out(std::span<const std::array<double, 3>> scaled, Tets tets,
   TetLayout layout = laid_out(orient_tets(tets, glued.across, volume, threads));
   layout.take_gluing(std::move(glued), threads);
   return layout;
+}
+
+// An edge has one length in all tetrahedra that share a face with it, but for rounding.
+void check_edges(Tets tets, std::span<const std::array<double, 6>> lengths,
+                 const TetGluing& across) {
+  for (Index t = 0; t < tets.size(); ++t)
+    for (Index face = 0; face < 4; ++face) {
+      if (across[t][face] == none || across[t][face] / 4 < t) continue;
+      const Index u = across[t][face] / 4;
+      const auto there = [&](Index corner) {
+        return static_cast<Index>(std::find(tets[u].begin(), tets[u].end(), tets[t][corner]) -
+                                  tets[u].begin());
+      };
+      const double longest = std::max(longest_of(lengths[t]), longest_of(lengths[u]));
+      for (const auto& [i, j] : tet_edge_ends) {
+        if (i == face || j == face) continue;
+        const double one = lengths[t][tet_edge(i, j)],
+                     other = lengths[u][tet_edge(there(i), there(j))];
+        if (differ_much(one, other, longest))
+          refuse_two_lengths(tets[t][i], tets[t][j], one, other);
+      }
+    }
 }
 
 }  // namespace
@@ -214,6 +238,7 @@ TetMesh<Real>::TetMesh(std::size_t vertices, std::span<const std::array<Index, 4
     NumberRange<Real>::check_simplex("tet", t,
                                      *std::max_element(scaled[t].begin(), scaled[t].end()));
   GluedTets glued = glue_tets(vertices, tets, threads);
+  check_edges(tets, lengths, glued.across);
   const std::vector<signed char> unknown(tets.size(), 0);
   const auto turn = orient_tets(tets, glued.across, unknown, threads);
   summary_.mean_edge = unit;
@@ -259,6 +284,9 @@ void TetMesh<Real>::assemble(TetLayout&& layout, std::span<const std::array<doub
   corners_ = std::move(rows.corner);
   summary_.edges = layout.glued.edges;
   summary_.reflex_edges = topology.reflex_edges;
+  summary_.notch_edges = static_cast<std::size_t>(std::count_if(
+      topology.reflex.begin(), topology.reflex.end(),
+      [](const auto& edge) { return edge.angle > std::numbers::pi + SolidSummary::notch; }));
   summary_.reflex_vertices = topology.reflex_vertices;
   summary_.pinched_vertices = topology.pinched_vertices.size();
   summary_.pinched_edges = topology.pinched_edges.size();

@@ -14,6 +14,7 @@
 #include "complex/face_layout.hpp"
 #include "complex/gluing.hpp"
 #include "complex/number_range.hpp"
+#include "complex/one_length.hpp"
 #include "complex/saddle_vertices.hpp"
 #include "complex/shape_blocks.hpp"
 #include "complex/simplex_order.hpp"
@@ -77,6 +78,17 @@ template <class Visit>
 void around_edge(GluingView across, Index h, Visit visit) {
   visit(h);
   for (Index o = across[h / 3][h % 3]; o != none && o != h; o = across[o / 3][o % 3]) visit(o);
+}
+
+// An edge has one length, up to what rounds numbers of six digits.
+void check_sides(Faces faces, std::span<const std::array<double, 3>> lengths, GluingView across) {
+  for (Index h = 0; h < faces.size() * 3; ++h) {
+    const Index o = across[h / 3][h % 3];
+    if (o == none) continue;
+    const double one = lengths[h / 3][h % 3], other = lengths[o / 3][o % 3];
+    if (differ_much(one, other, std::max(longest_of(lengths[h / 3]), longest_of(lengths[o / 3]))))
+      refuse_two_lengths(faces[h / 3][h % 3], faces[h / 3][next_side(h % 3)], one, other);
+  }
 }
 
 // Both sides of an edge must agree to the last bit: the mean of what they say.
@@ -161,7 +173,9 @@ TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::arra
                                  const SurfaceHints& hints) {
   check_faces(vertices, faces, hints.threads);
   check_corners(faces, hints.threads);
-  *this = TriangleMesh(vertices, faces, lengths, glue_by_vertices(vertices, faces), hints);
+  const Gluing across = glue_by_vertices(vertices, faces);
+  if (!hints.refracts && lengths.size() == faces.size()) check_sides(faces, lengths, across);
+  *this = TriangleMesh(vertices, faces, lengths, across, hints);
 }
 
 template <class Real>

@@ -101,7 +101,12 @@ class Umbrella {
  public:
   Umbrella(const Places& places, std::span<const TangentFrame> frames, const SheetRule& rule,
            const Bends& bends, double widest)
-      : places_(places), frames_(frames), rule_(rule), bends_(bends), widest_(widest) {}
+      : places_(places),
+        frames_(frames),
+        rule_(rule),
+        bends_(bends),
+        widest_(widest),
+        wrap_(places.at) {}
 
   /// Pairs of neighbours of which the first was asked for, and that are not on the same sheet.
   [[nodiscard]] std::size_t refused() const { return refused_; }

@@ -13,6 +13,7 @@
 #include "executors/checks.hpp"
 #include "executors/crack_sources.hpp"
 #include "executors/crowd_watch.hpp"
+#include "executors/mixed_lines.hpp"
 #include "executors/owned_work.hpp"
 #include "executors/run.hpp"
 #include "executors/team.hpp"
@@ -224,6 +225,7 @@ void solve_points(const E& executor, const MixedComplex<Real>& domain,
     check_cracks(domain, sources);
     solve_joined(executor, domain, sources, options, kept, field);
   }
+  field.statistics.raised_vertices += MixedPlaces<Real>(domain).raise(sources, field);
   if (sources.size() == 1) field.label.clear();
 }
 

@@ -89,8 +89,10 @@ void check_output_name(const std::string& out, const std::string& input,
   if (std::find(known.begin(), known.end(), extension) == known.end()) {
     std::string names;
     for (const std::string_view name : known) names.append(" ").append(name);
-    throw UsageError(std::string(option) + " " + out + ": unknown extension" +
-                     did_you_mean(extension, known) + "; those written are" + names);
+    throw UsageError(std::string(option) + " " + out + ": " +
+                     (extension.empty() ? "the extension is missing"
+                                        : "unknown extension" + did_you_mean(extension, known)) +
+                     "; those written are" + names);
   }
   check_output_place(out, {&input, 1}, option);
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -37,6 +38,7 @@ class HingeChains {
         for (const auto& [other, other_end] : meeting)
           if (other != n && straight(domain, n, end, other, other_end))
             links_[n][end] = {other, other_end};
+    find_lines(domain);
   }
 
   /// Does hinge n lead into a solid over an edge, from its side `side`?
@@ -49,6 +51,10 @@ class HingeChains {
   [[nodiscard]] bool ends(Index n, std::size_t end) const {
     return solid_[n] != 2 && links_[n][end].hinge == none;
   }
+
+  /// From where to where the straight line of edges into a solid goes that hinge n is on, in its
+  /// frame; without end for other hinges.
+  [[nodiscard]] std::pair<Real, Real> line(Index n) const { return lines_[n]; }
 
   /// From x = low to high along hinge n, in its frame, the same source is seen as by member m.
   [[nodiscard]] std::pair<Real, Real> visible(const Domain& domain, Index n, std::size_t side,
@@ -83,10 +89,25 @@ class HingeChains {
   }
 
   [[nodiscard]] std::size_t bytes() const {
-    return links_.capacity() * sizeof(links_[0]) + solid_.capacity() * sizeof(Index);
+    return links_.capacity() * sizeof(links_[0]) + solid_.capacity() * sizeof(Index) +
+           lines_.capacity() * sizeof(lines_[0]);
   }
 
  private:
+  void find_lines(const Domain& domain) {
+    constexpr Real infinity = std::numeric_limits<Real>::infinity();
+    lines_.assign(links_.size(), {-infinity, infinity});
+    for (Index n = 0; n < links_.size(); ++n) {
+      if (solid_[n] == 2) continue;
+      Real beyond[2] = {0, 0};
+      for (const Index towards : {0u, 1u})
+        for (Link link = links_[n][towards]; link.hinge != none && link.hinge != n;
+             link = links_[link.hinge][1 - link.end])
+          beyond[towards] += length(domain, link.hinge);
+      lines_[n] = {-beyond[0], length(domain, n) + beyond[1]};
+    }
+  }
+
   struct Link {
     Index hinge = none, end = 0;  // the end of that hinge which is ours
   };
@@ -119,6 +140,7 @@ class HingeChains {
 
   std::vector<std::array<Link, 2>> links_;
   std::vector<Index> solid_;  // by hinge: which side is a solid and met over an edge, or 2
+  std::vector<std::pair<Real, Real>> lines_;
 };
 
 }  // namespace plexway

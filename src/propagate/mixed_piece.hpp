@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <plexway/complex/mixed_complex.hpp>
@@ -85,7 +86,10 @@ class MixedPiece {
   virtual PosedSource<Real> leave(const Member&, int dimension, const HingePlace<Real>&) const = 0;
   /// A source that is handed on as it is: both pieces measure the hinge alike, and all of the hinge
   /// sees it.
-  virtual bool enter(const Member&, int dimension, const PosedSource<Real>&, Index ring) = 0;
+  /// Of an edge on a straight line of them, `line` is where that begins and ends: light into a
+  /// surface bends there.
+  virtual bool enter(const Member&, int dimension, const PosedSource<Real>&, Index ring,
+                     const std::pair<Real, Real>& line) = 0;
   /// Any other front: a path crosses where it is shortest. A label that starts at the crossing
   /// gets the front's number as its source, and is told to `started`.
   virtual bool enter_front(const Member&, const HingeFront<Real>&, Point& started) = 0;

@@ -377,7 +377,10 @@ class MixedPropagation {
       HingeFront<Real> front(piece, member, hinge.dimension, none, none);
       const bool one = front.is_one_source(posed_[m]);
       posed_[m].source = root(posed_[m].source);
-      changed_.push_back({n, side, m, one && hinges_.is_isometric(n)});
+      // Virtual sources of a surface are where they seem to be for points of its plane alone: from
+      // its triangles paths bend on the face.
+      const bool leaves_plane = hinge.dimension == 2 && !piece.is_solid();
+      changed_.push_back({n, side, m, one && hinges_.is_isometric(n) && !leaves_plane});
     }
     bool any = false;
     // Over edges first: of equal paths, one with a ring serves more points than one that bends at
@@ -398,7 +401,8 @@ class MixedPropagation {
         for (Index k = hinge.begin[1 - side]; k < hinge.end[1 - side]; ++k) {
           PosedSource<Real> posed = posed_[m];
           posed.sigma += gain_over(n, side, m, k);
-          entered |= pieces_[to]->enter(domain_.members()[k], hinge.dimension, posed, ring);
+          entered |= pieces_[to]->enter(domain_.members()[k], hinge.dimension, posed, ring,
+                                        hinges_.chains().line(n));
         }
         any |= entered;
         if (ring != none && !entered) pieces_[to]->close_ring();

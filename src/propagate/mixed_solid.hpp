@@ -253,7 +253,8 @@ class MixedSolid final : public MixedPiece<Real> {
     return nearest;
   }
 
-  bool enter(const Member& m, int dimension, const PosedSource<Real>& from, Index ring) override {
+  bool enter(const Member& m, int dimension, const PosedSource<Real>& from, Index ring,
+             const std::pair<Real, Real>&) override {
     const Frame frame(*this, m, dimension);
     const Point eye = frame.origin + (from.x / unit_) * frame.u + (from.y / unit_) * frame.w +
                       (from.h / unit_) * frame.out;

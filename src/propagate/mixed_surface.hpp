@@ -104,13 +104,24 @@ class MixedSurface final : public MixedPiece<Real> {
     return {x * unit_, y * unit_, 0, sigma, wave_.source(m.simplex)};
   }
 
-  bool enter(const Member& m, int dimension, const PosedSource<Real>& from, Index) override {
+  bool enter(const Member& m, int dimension, const PosedSource<Real>& from, Index,
+             const std::pair<Real, Real>& line) override {
     const Real x = from.x / unit_, y = from.y / unit_, h = from.h / unit_;
     const Real sigma = from.sigma / unit_;
     if (dimension == 1) {
       const auto [edge, turned] = edge_of(m);
       const Real length = mesh_.triangles()[m.simplex].length[edge];
-      return rule_.enter_over(m.simplex, edge, turned ? length - x : x, h, sigma, from.source);
+      const auto along = [&](Real at) { return turned ? length - at : at; };
+      typename Rule::Posed p;
+      p.source = p.limit[0] = p.limit[1] = {{along(x)}, h};
+      p.sigma = sigma;
+      if (std::isfinite(line.first)) {
+        p.limit[turned ? 1 : 0] = {{along(line.first / unit_)}, Real(0)};
+        p.limit[turned ? 0 : 1] = {{along(line.second / unit_)}, Real(0)};
+      }
+      const std::size_t updates = wave_.updates();
+      rule_.enter_posed(m.simplex, edge, p, from.source);
+      return wave_.updates() != updates;
     }
     const Frame frame(mesh_.triangles()[m.simplex], 0, m);
     return rule_.enter_from_above(m.simplex, frame.x0 + x * frame.ux + y * frame.wx,

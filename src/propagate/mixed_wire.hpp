@@ -59,7 +59,10 @@ class MixedWire final : public MixedPiece<Real> {
   Index vertex_of(Index, std::size_t) const override { return none; }
   HingeShape<Real> shape(const Member&, int) const override { return {}; }
   PosedSource<Real> leave(const Member&, int, const HingePlace<Real>&) const override { return {}; }
-  bool enter(const Member&, int, const PosedSource<Real>&, Index) override { return false; }
+  bool enter(const Member&, int, const PosedSource<Real>&, Index,
+             const std::pair<Real, Real>&) override {
+    return false;
+  }
   bool enter_front(const Member&, const HingeFront<Real>&, Vector3<Real>&) override {
     return false;
   }

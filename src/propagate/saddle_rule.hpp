@@ -285,18 +285,7 @@ class SaddleRule : public SaddlePoses<Real> {
     return p;
   }
 
-  /// A source comes over edge k of f from elsewhere, (x, h) on the far side, x from its first
-  /// corner.
-  bool enter_over(Index f, std::size_t k, Real x, Real h, Real sigma, Index source) {
-    Posed p;
-    p.source = p.limit[0] = p.limit[1] = {{x}, h};
-    p.sigma = sigma;
-    const std::size_t before = front_.updates();
-    enter(f, k, p, false, -1, true, source);
-    return front_.updates() != before;
-  }
-
-  /// The same for a label with limits.
+  /// A label comes over edge k of f from elsewhere, posed on the far side.
   void enter_posed(Index f, std::size_t k, const Posed& label, Index source) {
     enter(f, k, label, false, -1, true, source);
   }
@@ -324,6 +313,10 @@ class SaddleRule : public SaddlePoses<Real> {
       Posed p;
       p.source = {{length - along}, std::sqrt(off * off + h * h)};
       p.limit[0] = p.limit[1] = p.source;
+      if (h > 0) {  // turned into the plane beyond, it is seen through this edge alone
+        p.limit[0] = {{Real(0)}, Real(0)};
+        p.limit[1] = {{length}, Real(0)};
+      }
       p.sigma = sigma;
       cross_posed(f, edge, p, -1, true, source);
     }

@@ -52,7 +52,7 @@ bool same(const Sparse<D>& a, const Sparse<D>& b) {
 }
 
 template <class D>
-void check_domain() {
+void check_domain(Accuracy accuracy) {
   using Real = RealOf<D>;
   visit_scenes<D>([&](const Scene<D>& scene) {
     CAPTURE(scene.name);
@@ -60,7 +60,7 @@ void check_domain() {
     const std::size_t n = domain.vertex_count();
     PairsRequest all;
     all.block = 7;
-    all.solve.accuracy = Accuracy::fast();
+    all.solve.accuracy = accuracy;
     Rows<Real> expected;
     for (Index v = 0; v < n; ++v)
       expected.push_back(solve(Serial{}, domain, PointSource::at(v), all.solve).distance);
@@ -126,7 +126,9 @@ void check_domain() {
 
 }  // namespace
 
-#define PLEXWAY_CHECK(...) check_domain<__VA_ARGS__>();
+#define PLEXWAY_CHECK(...)                     \
+  check_domain<__VA_ARGS__>(Accuracy::fast()); \
+  check_domain<__VA_ARGS__>(Accuracy::usual());
 
 TEST_CASE("rows of a matrix are solves, on surfaces"){
     PLEXWAY_SURFACES(PLEXWAY_CHECK)} TEST_CASE("rows of a matrix are solves, in solids"){

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include <plexway/complex/simplicial_complex.hpp>
+#include <plexway/complex/tet_mesh.hpp>
 #include <plexway/error.hpp>
 
 #include "complex/test_meshes.hpp"
@@ -80,6 +82,33 @@ TEST_CASE("an extent beyond the largest number is refused") {
   s.add(-1.7e308, 0), s.add(1.7e308, 0), s.add(0, 1.7e308);
   s.triangle(0, 1, 2);
   CHECK_THAT(error_of([&] { return s.mesh<double>(); }), Contains("face 0"));
+}
+
+TEMPLATE_TEST_CASE("two lengths of one edge are refused by its name", "", float, double) {
+  const std::vector<Face> faces = {{0, 1, 2}, {1, 3, 2}, {2, 3, 4}};
+  for (const double second : {1.5, 1 + 1e-7}) {
+    const Lengths lengths = {{1, 1, 1}, {1, 1, second}, {1, 1, 1}};
+    const std::string error = error_of([&] { TriangleMesh<TestType>(5, faces, lengths); });
+    if (second < 1.1) {
+      CHECK(error.empty());
+    } else {
+      CHECK_THAT(error, Contains("edge 1 - 2") && Contains("1.5"));
+      CHECK_THAT(
+          error_of([&] {
+            SimplicialComplex<TestType, 2>(5, faces, Lengths{{1, 1, 1}, {1, second, 1}, {1, 1, 1}});
+          }),
+          Contains("edge 1 - 2"));
+    }
+    const std::vector<std::array<Index, 4>> tets = {{0, 1, 2, 3}, {4, 3, 2, 1}};
+    const std::vector<std::array<double, 6>> six = {{1, 1, 1, 1, 1, 1}, {1, 1, second, 1, 1, 1}};
+    CHECK((error_of([&] { TetMesh<TestType>(5, tets, six); }).find("edge 2 - 3") !=
+           std::string::npos) == (second > 1.1));
+  }
+  // Where paths are refracted an edge has two.
+  SurfaceHints hints;
+  hints.refracts = true;
+  CHECK_NOTHROW(
+      TriangleMesh<TestType>(5, faces, Lengths{{1, 1, 1}, {1, 1, 1.5}, {1, 1, 1}}, hints));
 }
 
 }  // namespace plexway::testing::bad_input_test

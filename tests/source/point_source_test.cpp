@@ -244,4 +244,31 @@ TEST_CASE("the same source twice: the first is named") {
   CHECK(plexway::solve(Serial{}, mesh, PointSource::at(7)).label.empty());
 }
 
+TEST_CASE("a list of sources that has a name keeps what was made for it") {
+  const auto mesh = grid(4, 4).mesh<double>();
+  const auto zero_at = [&](const SourceList& list, std::initializer_list<Index> vertices) {
+    const auto field = plexway::solve(Serial{}, mesh, list);
+    for (const Index v : vertices) CHECK(field.distance[v] == 0);
+  };
+  const std::vector<PointSource> rows = {PointSource::at(3), PointSource::at(8)};
+  const SourceList one(PointSource::at(7));
+  const SourceList several{std::vector<PointSource>(rows)};
+  const SourceList fixed{std::array{PointSource::at(2), PointSource::at(9)}};
+  const SourceList any{Source(PointSource::at(5))};
+  const SourceList sets{std::vector<Source>{VertexSource{.vertices = {1, 4}}, PointSource::at(6)}};
+  const SourceList copy(one);
+  const SourceList second = several.only(1);
+  std::vector<double> elsewhere(1000, 1);  // what is gone may be written over
+  zero_at(one, {7});
+  zero_at(several, {3, 8});
+  zero_at(fixed, {2, 9});
+  zero_at(any, {5});
+  zero_at(sets, {1, 4, 6});
+  zero_at(copy, {7});
+  zero_at(second, {8});
+  CHECK(SourceList(rows).points().data() == rows.data());
+  CHECK(one.only_points());
+  CHECK_FALSE(sets.only_points());
+}
+
 }  // namespace plexway::testing::point_source_test

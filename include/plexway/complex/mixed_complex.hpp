@@ -113,6 +113,11 @@ class MixedComplex {
   /// asked for, after the last change; may be asked for by several threads.
   [[nodiscard]] std::shared_ptr<const JoinedPieces<Real>> joined() const;
 
+  /// Where the vertices of a piece lie, as it was added; may be empty.
+  [[nodiscard]] std::span<const std::array<double, 3>> positions(const Piece& piece) const {
+    return positions_[piece.number];
+  }
+
   /// A simplex at a hinge: its number, and which of its corners are the hinge's vertices 0 .. K.
   struct Member {
     /// The number inside its piece.

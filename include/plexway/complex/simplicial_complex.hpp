@@ -76,9 +76,10 @@ class SimplicialComplex {
   using Lengths = std::array<double, N*(N + 1) / 2>;
 
   /// From lengths alone: one row a simplex, in the order (0,1) (0,2) (1,2) (0,3) (1,3) (2,3) (0,4)
-  /// ... of its corners. Two vertices have one edge: where simplices differ the mean is taken.
-  /// Throws InputError naming the simplex for a vertex out of range or twice in it, a length that
-  /// is negative or not finite, and for no simplex or more than 2^28 - 1.
+  /// ... of its corners. Two vertices have one edge: where simplices differ by rounding the mean is
+  /// taken. Throws InputError naming the simplex for a vertex out of range or twice in it, a length
+  /// that is negative or not finite, two lengths of one edge, and for no simplex or more than
+  /// 2^28 - 1.
   /// Cost: O(n log n), about 1 us a simplex.
   SimplicialComplex(std::size_t vertices, std::span<const Corners> simplices,
                     std::span<const Lengths> lengths);

@@ -26,10 +26,13 @@ struct SolidSummary {
   std::size_t vertices = 0;
   /// Tetrahedra.
   std::size_t tets = 0;
-  std::size_t edges = 0;                  ///< distinct
-  std::size_t faces = 0;                  ///< distinct
-  std::size_t boundary_faces = 0;         ///< of one tetrahedron only
-  std::size_t reflex_edges = 0;           ///< with more than pi of solid around: paths bend there
+  std::size_t edges = 0;           ///< distinct
+  std::size_t faces = 0;           ///< distinct
+  std::size_t boundary_faces = 0;  ///< of one tetrahedron only
+  std::size_t reflex_edges = 0;    ///< with more than pi of solid around: paths bend there
+  /// By lengths: boundary edges with more than pi + `notch` of solid around.
+  std::size_t notch_edges = 0;
+  static constexpr double notch = 0.25;   ///< more than a metric that varies bends a flat boundary
   std::size_t reflex_vertices = 0;        ///< ends of reflex edges, and pinched vertices
   std::size_t pinched_vertices = 0;       ///< tetrahedra touch there in the vertex only
   std::size_t pinched_edges = 0;          ///< tetrahedra touch there in the edge only

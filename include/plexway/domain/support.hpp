@@ -130,7 +130,7 @@ namespace plexway {
   X(strings_exact, "solids have no accuracy exact: ask for accurate")                              \
   X(windows_gl,                                                                                    \
     "the executor GL keeps one label a triangle: use the executor Serial, or the accuracy fast")   \
-  X(windows_refraction, "windows are not refracted: use the accuracy fast")                        \
+  X(windows_refraction, "only the accuracy fast refracts paths where speeds jump")                 \
   X(windows_visibility,                                                                            \
     "windows know what they see: use the policy saddles, or the accuracy fast")                    \
   X(windows_labels,                                                                                \

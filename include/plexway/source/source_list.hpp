@@ -2,17 +2,19 @@
 
 #include <concepts>
 #include <cstddef>
-#include <optional>
 #include <ranges>
 #include <span>
+#include <type_traits>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <plexway/source/source.hpp>
 
 namespace plexway {
 
-/// The sources of a solve: one or many, points or of any kind. A view, but for a single curve, set
-/// or the like, which it keeps; made where a function is called, so it need not be named:
+/// The sources of a solve: one or many, points or of any kind. A single one is copied, and so are
+/// rows that would be gone after this line; other rows are referred to, and must stay:
 ///
 /// @code
 ///   solve(executor, domain, PointSource::at(7));
@@ -21,50 +23,76 @@ namespace plexway {
 ///   solve(executor, domain, sources);                       // std::vector<Source>
 /// @endcode
 class SourceList {
+  template <class Range, class Element>
+  static constexpr bool is_row =
+      std::convertible_to<const std::remove_reference_t<Range>&, std::span<const Element>>;
+  // Does what it holds stay where it is when it goes?
+  template <class Range>
+  static constexpr bool stays =
+      std::is_lvalue_reference_v<Range> || std::ranges::borrowed_range<Range>;
+
  public:
-  /// One point; referred to.
-  SourceList(const PointSource& one) : points_(&one, 1) {}
-  /// One source of any kind; referred to.
-  SourceList(const Source& one) : any_(&one, 1), is_any_(true) {}
-  /// One set, ball, curve or simplex, which is copied.
+  /// One point.
+  SourceList(const PointSource& one) : held_(one) {}
+  /// One source of any kind: a set, ball, curve or simplex.
   template <class Kind>
-  requires std::convertible_to<Kind, Source> &&
-      (!std::same_as<Kind, Source>)&&(!std::same_as<Kind, PointSource>)SourceList(const Kind& one)
-      : own_(one), is_any_(true) {}
+  requires(std::convertible_to<Kind, Source> && !std::same_as<Kind, PointSource>)
+      SourceList(Kind one)
+      : held_(std::in_place_type<Source>, std::move(one)) {}
   /// Rows of points.
   template <class Range>
-  requires std::convertible_to<const Range&, std::span<const PointSource>> SourceList(
-      const Range& points)
-      : points_(std::span<const PointSource>(points)) {}
+  requires(is_row<Range, PointSource>) SourceList(Range&& points) {
+    take<PointSource>(std::forward<Range>(points));
+  }
   /// Rows of sources of any kind.
   template <class Range>
-  requires std::convertible_to<const Range&, std::span<const Source>> SourceList(
-      const Range& sources)
-      : any_(std::span<const Source>(sources)), is_any_(true) {}
+  requires(is_row<Range, Source>) SourceList(Range&& sources) {
+    take<Source>(std::forward<Range>(sources));
+  }
   /// So many points, one after another in memory; referred to.
-  SourceList(const PointSource* first, std::size_t count) : points_(first, count) {}
+  SourceList(const PointSource* first, std::size_t count) : held_(std::span(first, count)) {}
 
   /// Only points, given as such?
-  [[nodiscard]] bool only_points() const { return !is_any_; }
-  /// Where there are only points.
-  [[nodiscard]] std::span<const PointSource> points() const { return points_; }
-  /// Where there are not only points.
-  [[nodiscard]] std::span<const Source> sources() const {
-    return own_ ? std::span<const Source>(&*own_, 1) : any_;
+  [[nodiscard]] bool only_points() const {
+    return std::holds_alternative<std::span<const PointSource>>(held_) ||
+           std::holds_alternative<PointSource>(held_) ||
+           std::holds_alternative<std::vector<PointSource>>(held_);
   }
+  /// Where there are only points.
+  [[nodiscard]] std::span<const PointSource> points() const { return row<PointSource>(); }
+  /// Where there are not only points.
+  [[nodiscard]] std::span<const Source> sources() const { return row<Source>(); }
   /// How many sources.
-  [[nodiscard]] std::size_t size() const { return is_any_ ? sources().size() : points_.size(); }
+  [[nodiscard]] std::size_t size() const {
+    return only_points() ? points().size() : sources().size();
+  }
   /// Source k alone.
   [[nodiscard]] SourceList only(std::size_t k) const {
-    if (is_any_) return SourceList(sources()[k]);
-    return SourceList(points_[k]);
+    if (only_points()) return SourceList(points()[k]);
+    return SourceList(sources()[k]);
   }
 
  private:
-  std::span<const PointSource> points_;
-  std::span<const Source> any_;
-  std::optional<Source> own_;
-  bool is_any_ = false;
+  template <class Element>
+  [[nodiscard]] std::span<const Element> row() const {
+    if (const auto* one = std::get_if<Element>(&held_)) return {one, 1};
+    if (const auto* kept = std::get_if<std::vector<Element>>(&held_)) return *kept;
+    const auto* rows = std::get_if<std::span<const Element>>(&held_);
+    return rows != nullptr ? *rows : std::span<const Element>();
+  }
+  template <class Element, class Range>
+  void take(Range&& rows) {
+    if constexpr (stays<Range>)
+      held_ = std::span<const Element>(rows);
+    else if constexpr (std::same_as<std::remove_cvref_t<Range>, std::vector<Element>>)
+      held_ = std::forward<Range>(rows);
+    else
+      held_ = std::vector<Element>(std::ranges::begin(rows), std::ranges::end(rows));
+  }
+
+  std::variant<std::span<const PointSource>, std::span<const Source>, PointSource, Source,
+               std::vector<PointSource>, std::vector<Source>>
+      held_;
 };
 
 }  // namespace plexway

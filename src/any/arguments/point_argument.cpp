@@ -9,6 +9,7 @@
 #include <plexway/error.hpp>
 
 #include "any/arguments/require.hpp"
+#include "any/survey.hpp"
 #include "any/words.hpp"
 
 namespace plexway {
@@ -18,7 +19,8 @@ constexpr std::string_view vertex_prefix = "vertex:";
 constexpr std::string_view point_prefix = "point:";
 
 [[noreturn]] void malformed(const std::string& text, const std::string& role) {
-  throw UsageError("--" + role + " '" + text + "': write vertex:ID (0-based) or point:X,Y,Z");
+  throw UsageError("--" + role + " '" + text + "': " + meant_place(text) +
+                   "write vertex:ID (0-based) or point:X,Y,Z");
 }
 
 // Any integer: one that does not fit is out of range in every file, and not a slip of the syntax.
@@ -31,6 +33,13 @@ std::optional<Index> parse_id(std::string_view text) {
 }
 
 }  // namespace
+
+std::string meant_place(std::string_view text) {
+  const bool number = !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+  if (!number && !parse_point(text)) return "";
+  return std::string("did you mean '").append(number ? vertex_prefix : point_prefix) +
+         std::string(text) + "'? ";
+}
 
 std::optional<std::array<double, 3>> parse_point(std::string_view text) {
   std::array<double, 3> point;
@@ -99,6 +108,28 @@ std::optional<double> distance_from(const AnyShape& domain, const SourceArgument
   if (point == nullptr) return std::nullopt;
   const auto at = domain.position(source);
   return std::hypot(at[0] - (*point)[0], at[1] - (*point)[1], at[2] - (*point)[2]);
+}
+
+std::vector<std::string> far_notes(const AnyShape& domain,
+                                   const std::vector<SourceArgument>& arguments,
+                                   std::span<const PointSource> found) {
+  std::vector<std::string> notes;
+  std::optional<double> diagonal;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto away = distance_from(domain, arguments[i], found[i]);
+    if (!away) continue;
+    if (!diagonal) {
+      const Bounds box = bounding_box(domain.positions());
+      diagonal =
+          std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+    }
+    if (*away > 0.01 * *diagonal)
+      notes.push_back("--" + arguments[i].role + " " + arguments[i].text + " is " +
+                      short_number(*away) + " from the " + std::string(kind_noun(domain.kind())) +
+                      " (" + short_number(*away / *diagonal) +
+                      " of its diagonal): the closest point was taken");
+  }
+  return notes;
 }
 
 std::string describe_source(const AnyShape& domain, const SourceArgument& argument,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -26,6 +27,9 @@ SourceArgument parse_source(const std::string& text, const std::string& role = "
 std::vector<SourceArgument> parse_sources(const std::vector<std::string>& texts,
                                           const std::string& role = "source");
 
+/// "did you mean 'vertex:7'? " for a bare number or a bare point, else empty.
+std::string meant_place(std::string_view text);
+
 /// "X,Y,Z" as finite numbers.
 std::optional<std::array<double, 3>> parse_point(std::string_view text);
 
@@ -38,6 +42,11 @@ std::vector<PointSource> locate_sources(const AnyShape& domain,
 /// How far a point that was asked for is from where it is in the domain; nothing for a vertex.
 std::optional<double> distance_from(const AnyShape& domain, const SourceArgument& argument,
                                     const PointSource& source);
+
+/// A note of each that is farther from the domain than 1 % of its diagonal.
+std::vector<std::string> far_notes(const AnyShape& domain,
+                                   const std::vector<SourceArgument>& arguments,
+                                   std::span<const PointSource> found);
 
 /// For people: "vertex 12", or "point:1,2,3 (triangle 7, 0.01 away)".
 std::string describe_source(const AnyShape& domain, const SourceArgument& argument,

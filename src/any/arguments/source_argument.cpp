@@ -28,8 +28,8 @@ const char* const source_set_help =
 namespace {
 
 [[noreturn]] void malformed_source(const std::string& text) {
-  throw UsageError("--source '" + text +
-                   "': write vertex:ID (0-based), point:X,Y,Z, vertices:FILE, boundary, "
+  throw UsageError("--source '" + text + "': " + meant_place(text) +
+                   "write vertex:ID (0-based), point:X,Y,Z, vertices:FILE, boundary, "
                    "segment:X,Y,Z,X,Y,Z, polyline:FILE, triangle:ID or circle:X,Y,Z,R, and "
                    "+OFFSET behind it if wanted");
 }
@@ -235,6 +235,28 @@ bool have_shapes(const AnyShape& domain, std::span<const Source> sources) {
         std::holds_alternative<SimplexSource>(source))
       return true;
   return false;
+}
+
+AskedPoints asked_points(std::span<const SetArgument> arguments, std::span<const Source> sources) {
+  AskedPoints points;
+  const auto add = [&](const SetArgument& set, std::size_t first, const PointSource& found) {
+    const auto& n = set.numbers;
+    points.asked.push_back({set.text, std::array{n[first], n[first + 1], n[first + 2]}});
+    points.found.push_back(found);
+  };
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    if (const auto* point = std::get_if<PointSource>(&sources[i])) {
+      points.asked.push_back(parse_source(arguments[i].place));
+      points.found.push_back(*point);
+    } else if (const auto* ball = std::get_if<BallSource>(&sources[i])) {
+      add(arguments[i], 0, ball->centre);
+    } else if (const auto* curve = std::get_if<CurveSource>(&sources[i]);
+               curve != nullptr && arguments[i].kind == SetArgument::Kind::segment) {
+      add(arguments[i], 0, curve->points.front());
+      add(arguments[i], 3, curve->points.back());
+    }
+  }
+  return points;
 }
 
 std::string describe_source_set(const AnyShape& domain, const SetArgument& argument,

@@ -9,6 +9,8 @@
 
 #include <plexway/any/shape.hpp>
 
+#include "any/arguments/point_argument.hpp"
+
 namespace plexway {
 
 /// What `--source` of `plexway distance` says, before the domain is known.
@@ -44,6 +46,14 @@ std::vector<PointSource> as_points(std::span<const Source> sources);
 
 /// Are there curves or triangles on a surface? They lie in its triangles as they are.
 bool have_shapes(const AnyShape& domain, std::span<const Source> sources);
+
+/// Points of those that are asked for by coordinates, but for polylines, and where they are in the
+/// domain.
+struct AskedPoints {
+  std::vector<SourceArgument> asked;
+  std::vector<PointSource> found;
+};
+AskedPoints asked_points(std::span<const SetArgument> arguments, std::span<const Source> sources);
 
 /// For people.
 std::string describe_source_set(const AnyShape& domain, const SetArgument& argument,

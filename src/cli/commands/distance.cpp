@@ -58,8 +58,35 @@ DistanceReport report_of(const DistanceCommand& command, const Domain& domain,
           .of_surface = domain.kind() == DomainKind::surface};
 }
 
+// Where each source is in the domain, and how far from where it was asked for.
+Json sources_json(const Domain& domain, const std::vector<SetArgument>& arguments,
+                  const std::vector<Source>& sources) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    Json one;
+    one["source"] = arguments[i].text;
+    const auto* point = std::get_if<PointSource>(&sources[i]);
+    if (const auto* ball = std::get_if<BallSource>(&sources[i])) point = &ball->centre;
+    if (point != nullptr && point->vertex != none) one["vertex"] = point->vertex;
+    if (point != nullptr && point->vertex == none) {
+      one["simplex"] = point->simplex;
+      one["barycentric"] = point->barycentric;
+    }
+    const AskedPoints asked =
+        asked_points(std::span(arguments).subspan(i, 1), std::span(sources).subspan(i, 1));
+    std::optional<double> snapped;
+    for (std::size_t k = 0; k < asked.found.size(); ++k)
+      if (const auto away = distance_from(domain, asked.asked[k], asked.found[k]))
+        snapped = std::max(snapped.value_or(0), *away);
+    one["snapped"] = snapped ? Json(*snapped) : Json(nullptr);
+    list.push_back(one);
+  }
+  return list;
+}
+
 Json to_json(const DistanceCommand& command, const Domain& domain, const AnyDomain& solver,
              const AnyField& field, const MeasuredLengths* lengths,
+             const std::vector<SetArgument>& arguments, const std::vector<Source>& sources,
              const DistanceOutcome& outcome) {
   Json json;
   json["input"] = domain.file().string();
@@ -67,6 +94,7 @@ Json to_json(const DistanceCommand& command, const Domain& domain, const AnyDoma
   json["vertices"] = domain.vertices();
   json["simplices"] = solver.simplices();
   json["components"] = solver.components();
+  json["sources"] = sources_json(domain, arguments, sources);
   json["seconds"]["load"] = domain.load_seconds();
   if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
   if (domain.neighbour_seconds()) json["seconds"]["neighbours"] = *domain.neighbour_seconds();
@@ -292,12 +320,15 @@ void run_distance(DistanceCommand command) {
   };
   if (!command.leads()) return check_reached();
 
-  Json json = to_json(command, domain, solver, field, lengths.get(), outcome);
+  Json json = to_json(command, domain, solver, field, lengths.get(), arguments, sources, outcome);
   Table table =
       to_table(command, domain, solver, field, lengths.get(), arguments, sources, outcome);
   report_picture(command.picture, shown, json, table);
-  const Notes notes =
-      notes_on(command, solver, field, sources, options, outcome.executor, isovalues.empty());
+  Notes notes;
+  const AskedPoints asked = asked_points(arguments, sources);
+  for (std::string& far : far_notes(domain, asked.asked, asked.found)) notes.add(std::move(far));
+  notes.add(
+      notes_on(command, solver, field, sources, options, outcome.executor, isovalues.empty()));
   notes.tell(json);
   print_report(json, table, command.json, command.quiet,
                {command.out, command.isolines.out, command.picture.file, command.picture.html});

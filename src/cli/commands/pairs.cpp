@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -45,6 +46,9 @@ void run_pairs(const PairsCommand& pairs) {
   const Precision precision = precision_of(command);
   const Accuracy accuracy = accuracy_of(command.accuracy);
   check_output_name(command.out, command.input, matrix_file_extensions());
+  for (const std::string& text : pairs.points)
+    if (text == "all" || (text.find(':') == text.npos && std::filesystem::exists(text)))
+      throw UsageError("--source " + text + ": did you mean '--sources " + text + "'?");
   const auto arguments = parse_sources(pairs.points);
   ProgressLine progress(command.quiet);
   Phases phases;
@@ -71,6 +75,7 @@ void run_pairs(const PairsCommand& pairs) {
   summary.json["asymmetry"] = matrix.asymmetry;
   summary.table.add("two ways",
                     "differ by " + short_number(matrix.asymmetry) + " of the shorter at most");
+  for (std::string& far : far_notes(domain, arguments, points)) notes.add(std::move(far));
   notes.add(work_remarks({.statistics = matrix.statistics,
                           .accuracy = matrix.accuracy,
                           .has_windows = has_accuracies(domain.kind()),

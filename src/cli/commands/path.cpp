@@ -165,7 +165,7 @@ void report(const PathCommand& command, const Domain& domain, const PathOutcome&
                  : describe_source(domain, places.asked[n], places.found[n]);
     };
     table.add(outcome.paths.size() == 1 ? "path" : "path " + std::to_string(k),
-              reached ? place(to, k) + " to " + place(from, path.source) + ": length " +
+              reached ? place(from, path.source) + " to " + place(to, k) + ": length " +
                             short_number(path.length) + ", " + counted(path.points.size(), "points")
                       : place(to, k) + " is not reached");
   }
@@ -308,7 +308,10 @@ void run_path(const PathCommand& typed) {
   report_picture(command.picture, domain, json, table);
   std::size_t unreached = 0;
   for (const Path& path : outcome.paths) unreached += path.source == none;
-  const Notes notes = path_notes_on(outcome, sources, unreached);
+  Notes notes;
+  for (std::string& far : far_notes(domain, from, sources)) notes.add(std::move(far));
+  for (std::string& far : far_notes(domain, to, targets)) notes.add(std::move(far));
+  notes.add(path_notes_on(outcome, sources, unreached));
   notes.tell(json);
   print_report(json, table, command.json, command.quiet,
                {command.out, command.picture.file, command.picture.html});

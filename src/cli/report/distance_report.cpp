@@ -11,6 +11,7 @@ void add_report(const DistanceReport& report, Json& json) {
   json["reached"] = report.reached;
   json["unreached"] = report.vertices - report.reached;
   json["max_distance"] = json_number(report.max_distance);
+  json["farthest"] = report.reached > 0 ? Json(report.farthest) : Json(nullptr);
   if (report.mean_distance) json["mean_distance"] = json_number(*report.mean_distance);
   json["expansions"] = statistics.expansions;
   json["updates"] = statistics.updates;
