@@ -226,7 +226,7 @@ class CellMoments<TriangleMesh<Real>> {
   std::vector<Index> stack_;
 };
 
-/// In a solid vectors are those of space, towards the last bend.
+/// In a solid vectors are those of space, towards the first bend.
 template <class Real>
 class CellMoments<TetMesh<Real>> {
  public:
@@ -238,12 +238,14 @@ class CellMoments<TetMesh<Real>> {
 
   template <class Add>
   void each(std::span<const Place> seeds, Add add) {
+    const auto rule = field_.rule();
     for (Index t = 0; t < field_.simplices(); ++t) {
       if (!field_.reached(t)) continue;
       const auto& seed = seeds[field_.source(t)];
       const Vector3<Real> from = field_.position(seed.first, seed.second);
       const Vector3<Real>& centre = mesh_.tets()[t].centre;
-      Vector3<Real> to = field_.label(t).sigma > 0 ? bend(t) : centre;
+      const auto& label = field_.label(t);
+      Vector3<Real> to = label.sigma > 0 ? label.source : rule.seen_from(t, centre).eye;
       if (norm(to - from) <= Real(1e-5)) to = centre;
       const Vector3<Real> way = to - from;
       const double d = static_cast<double>(field_.distance(t));
@@ -295,31 +297,15 @@ class CellMoments<TetMesh<Real>> {
   }
 
  private:
-  using Point = Vector3<double>;
-
-  [[nodiscard]] Point point(Index v) const {
-    const auto& p = mesh_.points()[v];
-    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-  }
-  // The virtual source of a label, which has its squared distances from the corners.
-  [[nodiscard]] Vector3<Real> bend(Index t) const {
-    const Index* v = mesh_.tets()[t].corner;
-    const auto& far2 = field_.label(t).distance2;
-    const Point o = point(v[0]), a = point(v[1]) - o, b = point(v[2]) - o, c = point(v[3]) - o;
-    const double volume = dot(a, cross(b, c));
-    if (!(std::abs(volume) > 1e-6)) return mesh_.tets()[t].centre;
-    const auto along = [&](const Point& edge, std::size_t i) {
-      return (dot(edge, edge) + static_cast<double>(far2[0]) - static_cast<double>(far2[i])) / 2;
-    };
-    const Point s = o + (1 / volume) * (along(a, 1) * cross(b, c) + along(b, 2) * cross(c, a) +
-                                        along(c, 3) * cross(a, b));
-    return {static_cast<Real>(s.x), static_cast<Real>(s.y), static_cast<Real>(s.z)};
-  }
-
   // How the weights change along a vector.
   [[nodiscard]] Weights rates(Index t, const Vector& way) const {
     const Index* v = mesh_.tets()[t].corner;
-    const Point o = point(v[0]), a = point(v[1]) - o, b = point(v[2]) - o, c = point(v[3]) - o;
+    using Point = Vector3<double>;
+    const auto point = [&](std::size_t i) {
+      const auto& p = mesh_.points()[v[i]];
+      return Point{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+    };
+    const Point a = point(1) - point(0), b = point(2) - point(0), c = point(3) - point(0);
     const Point d = {way[0], way[1], way[2]};
     const double volume = dot(a, cross(b, c));
     if (!(std::abs(volume) > 0)) return {};

@@ -131,7 +131,10 @@ DistanceMatrix any_matrix(const Complex& domain, std::span<const PointSource> po
   cell.accuracy = accuracy.kind();
   support(cell).require();
   const Accuracy found = resolved(accuracy, cell);
-  if (found == Accuracy::fast()) return matrix(domain, points, progress, limits);
+  if (found == Accuracy::fast()) {
+    support(Purpose::samples, domain).require();
+    return matrix(domain, points, progress, limits);
+  }
   return field_matrix(domain, points, progress, accuracy, found, limits);
 }
 
@@ -149,7 +152,6 @@ template <class Real>
 DistanceMatrix distance_matrix(Serial, const TetMesh<Real>& mesh,
                                std::span<const PointSource> points,
                                const std::function<bool(double)>& progress, Accuracy accuracy) {
-  support(Purpose::samples, mesh).require();
   return any_matrix(mesh, points, progress, accuracy,
                     {mesh.vertex_count(), mesh.tet_count(), "tet", 4});
 }

@@ -20,7 +20,7 @@ typename SolidWalk<Real>::Barycentric SolidWalk<Real>::barycentric(Index t, cons
 
 template <class Real>
 double SolidWalk<Real>::leaves(Index t, const Point& p, const Point& q, double at,
-                               Index& face) const {
+                               double tolerance, Index& face) const {
   const Barycentric from = barycentric(t, p), to = barycentric(t, q);
   double first = 1;
   face = none;
@@ -42,11 +42,11 @@ void SolidWalk<Real>::around(Index t, const Point& at, std::vector<Index>& tets)
   for (std::size_t k = 0; k < tets.size() && tets.size() < most; ++k) {
     const Barycentric b = barycentric(tets[k], at);
     for (std::size_t i = 0; i < 4; ++i) {
-      if (std::abs(b[i]) > 1e-7) continue;  // not on face i
+      if (std::abs(b[i]) > 100 * finest) continue;  // not on face i
       const Index next = mesh_.tets()[tets[k]].across[i] >> TetAcross::tet_shift;
       if (next == sentinel || std::find(tets.begin(), tets.end(), next) != tets.end()) continue;
       const Barycentric there = barycentric(next, at);
-      if (*std::min_element(there.begin(), there.end()) >= -1e-7) tets.push_back(next);
+      if (*std::min_element(there.begin(), there.end()) >= -100 * finest) tets.push_back(next);
     }
   }
 }
@@ -57,7 +57,7 @@ void SolidWalk<Real>::all_at(Index t, const Point& at, std::vector<Index>& tets)
   const Barycentric b = barycentric(t, at);
   std::vector<Index> own;  // corners that it lies between
   for (std::size_t i = 0; i < 4; ++i)
-    if (std::abs(b[i]) > 1e-7) own.push_back(mesh_.tets()[t].corner[i]);
+    if (std::abs(b[i]) > 100 * finest) own.push_back(mesh_.tets()[t].corner[i]);
   if (own.empty() || own.size() > 2) return;
   for (const Index c : mesh_.corners_at(own.front())) {
     const Index* const corner = mesh_.tets()[c / 4].corner;
@@ -69,6 +69,15 @@ void SolidWalk<Real>::all_at(Index t, const Point& at, std::vector<Index>& tets)
 template <class Real>
 bool SolidWalk<Real>::walk(std::span<const Index> from, const Point& p, const Point& q,
                            std::vector<Step>* steps) const {
+  double tolerance = finest;
+  while (!walk(from, p, q, tolerance, steps))
+    if ((tolerance *= 10) > coarsest) return false;
+  return true;
+}
+
+template <class Real>
+bool SolidWalk<Real>::walk(std::span<const Index> from, const Point& p, const Point& q,
+                           double tolerance, std::vector<Step>* steps) const {
   const Index sentinel = static_cast<Index>(mesh_.tet_count());
   constexpr double progress = 1e-12;
   steps->clear();
@@ -79,7 +88,7 @@ bool SolidWalk<Real>::walk(std::span<const Index> from, const Point& p, const Po
     t = none, until = at + progress;
     for (const Index candidate : tets) {
       Index out = none;
-      const double reach = leaves(candidate, p, q, at, out);
+      const double reach = leaves(candidate, p, q, at, tolerance, out);
       if (reach > until) until = reach, t = candidate, face = out;
       if (reach >= 1) return;
     }
@@ -95,7 +104,7 @@ bool SolidWalk<Real>::walk(std::span<const Index> from, const Point& p, const Po
     t = none;
     if (next != sentinel) {
       Index out = none;
-      const double reach = leaves(next, p, q, at, out);
+      const double reach = leaves(next, p, q, at, tolerance, out);
       if (reach > at + progress) t = next, until = reach, face = out;
     }
     if (t == none) {  // through an edge or a vertex, or along one

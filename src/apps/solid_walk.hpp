@@ -31,8 +31,9 @@ class SolidWalk {
   };
 
   /// From p, which lies in one of `from`, straight to q, as long as that is in the closed solid.
-  /// Lines may run along its boundary; they may be off by 1e-9 of a tetrahedron. Each step gets on,
-  /// so it ends. False if it did not arrive. Cost: 0.2 us a tetrahedron.
+  /// Lines may run along its boundary, and be off by 1e-9 (float 1e-5) of a tetrahedron; by more, to
+  /// 1e-2, where they do not arrive else. Each step gets on, so it ends. False if it did not
+  /// arrive. Cost: 0.2 us a tetrahedron.
   bool walk(std::span<const Index> from, const Point& p, const Point& q,
             std::vector<Step>* steps) const;
 
@@ -41,12 +42,15 @@ class SolidWalk {
   void all_at(Index t, const Point& at, std::vector<Index>& tets) const;
 
  private:
-  static constexpr double tolerance = 1e-9;
+  static constexpr double finest = sizeof(Real) == 4 ? 1e-5 : 1e-9, coarsest = 1e-2;
 
+  bool walk(std::span<const Index> from, const Point& p, const Point& q, double tolerance,
+            std::vector<Step>* steps) const;
   void around(Index t, const Point& at, std::vector<Index>& tets) const;
   /// Up to where does the line from p to q stay in t, which it is in at `at`? And by which face
   /// does it leave. 1: it ends there.
-  double leaves(Index t, const Point& p, const Point& q, double at, Index& face) const;
+  double leaves(Index t, const Point& p, const Point& q, double at, double tolerance,
+                Index& face) const;
 
   const TetMesh<Real>& mesh_;
 };

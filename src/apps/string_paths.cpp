@@ -47,22 +47,26 @@ Path StringPaths<Real>::cut(const SolidStrings::Found& found, std::vector<Index>
   path.length = 0;
   const auto positions = solved_.positions;
   Point before = {0, 0, 0};
-  const auto add = [&](Index t, const Point& at) {
+  // A point of t, which the path comes to from another tetrahedron: rounding aside it is in both.
+  const auto add = [&](Index t, Index from, const Point& at) {
     std::array<double, 4> b = walk_.barycentric(t, at);
+    const auto& corner = mesh_.tets()[t].corner;
+    const auto& before_it = mesh_.tets()[from].corner;
     double sum = 0;
-    for (double& x : b) {
-      if (!(x > 1e-15)) x = 0;
-      sum += x;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const bool common = std::find(std::begin(before_it), std::end(before_it), corner[i]) !=
+                          std::end(before_it);
+      if (!(b[i] > 1e-15) || !common) b[i] = 0;
+      sum += b[i];
     }
     if (!(sum > 0)) return;
     for (double& x : b) x /= sum;
     Point placed = {0, 0, 0};
     for (std::size_t i = 0; i < 4; ++i) {
-      const Index corner = mesh_.tets()[t].corner[i];
       if (positions.empty()) {
-        placed = placed + b[i] * mesh_.unit() * walk_.vertex(corner);
+        placed = placed + b[i] * mesh_.unit() * walk_.vertex(corner[i]);
       } else {
-        const auto& p = positions[solved_.outer[corner]];
+        const auto& p = positions[solved_.outer[corner[i]]];
         placed = placed + b[i] * Point{p[0], p[1], p[2]};
       }
     }
@@ -73,19 +77,20 @@ Path StringPaths<Real>::cut(const SolidStrings::Found& found, std::vector<Index>
     path.points.push_back({number, b});
     if (!positions.empty()) path.positions.push_back({placed.x, placed.y, placed.z});
   };
-  Index last = tets.front();
+  Index last = none;
   std::vector<typename SolidWalk<Real>::Step> steps;
   for (std::size_t k = found.points.size(); k-- > 1;) {
     const Point &p = found.points[k], &q = found.points[k - 1];
     walk_.walk(tets, p, q, &steps);
     for (const auto& step : steps) {
       if (!(step.end > step.begin)) continue;
-      add(step.tet, p + step.begin * (q - p));
+      add(step.tet, last == none ? step.tet : last, p + step.begin * (q - p));
       last = step.tet;
     }
+    if (last == none) return {};
     walk_.all_at(last, q, tets);
   }
-  add(last, found.points.front());
+  add(last, last, found.points.front());
   return path;
 }
 

@@ -17,9 +17,9 @@
 
 #include "executors/simplex_numbers.hpp"
 #include "propagate/front.hpp"
-#include "propagate/plain_solid_rule.hpp"
 #include "propagate/saddle_offers.hpp"
 #include "propagate/solid_propagation.hpp"
+#include "propagate/solid_rule.hpp"
 #include "propagate/triangle_propagation.hpp"
 #include "propagate/wavefront.hpp"
 #include "propagate/workspace_state.hpp"
@@ -291,11 +291,11 @@ class Growth<TriangleMesh<Real>>
   }
 };
 
-/// In a solid with coordinates: the literal step.
+/// In a solid with coordinates.
 template <class Real>
 class Growth<TetMesh<Real>>
-    : public GrowthBase<Growth<TetMesh<Real>>, Real, TetMesh<Real>, PlainSolidLabel<Real>> {
-  using Base = GrowthBase<Growth, Real, TetMesh<Real>, PlainSolidLabel<Real>>;
+    : public GrowthBase<Growth<TetMesh<Real>>, Real, TetMesh<Real>, SolidLabel<Real>> {
+  using Base = GrowthBase<Growth, Real, TetMesh<Real>, SolidLabel<Real>>;
   friend Base;
 
  public:
@@ -304,8 +304,7 @@ class Growth<TetMesh<Real>>
   static constexpr std::size_t corners = 4;
 
   Growth(const TetMesh<Real>& mesh, WorkspaceState<Real>& workspace)
-      : Base(mesh, mesh.tet_count(), workspace,
-             workspace.plain_solids.reserve(mesh.tet_count() + 1)) {
+      : Base(mesh, mesh.tet_count(), workspace, workspace.solids.reserve(mesh.tet_count() + 1)) {
     this->clear();
   }
 
@@ -343,7 +342,7 @@ class Growth<TetMesh<Real>>
     const auto rule = this->rule();
     const auto ask = [&](Index u) {
       return found(this->source(u),
-                   [&](const Weights& w) { return rule.distance_at(u, t, w); });
+                   [&](const Weights& w) { return rule.distance_at(u, t, position(t, w)); });
     };
     if (this->reached(t) && ask(t)) return;
     Index heard[16] = {this->reached(t) ? this->source(t) : none};
@@ -384,11 +383,10 @@ class Growth<TetMesh<Real>>
     for (Index t = 0; t < this->simplices_; ++t)
       for (std::size_t i = 0; i < 4; ++i)
         if (this->complex_.tets()[t].across[i] >> TetAcross::tet_shift == this->simplices_)
-          for (std::size_t k = 0; k < 4; ++k)
-            if (k != i) visit(corners_of(t)[k]);
+          for (const Index k : tet_face_corners[i]) visit(corners_of(t)[k]);
   }
 
-  using Rule = PlainSolidRule<Real, Wave>;
+  using Rule = SolidRule<Real, Wave>;
   [[nodiscard]] Rule rule() { return Rule(this->complex_, this->wave_); }
 
  private:
@@ -397,7 +395,15 @@ class Growth<TetMesh<Real>>
   }
   template <class Propagation>
   void spread(Propagation& propagation) {
-    propagation.run();
+    // Where all of the log is there, around that only.
+    struct {
+      const Wave& wave;
+      const std::vector<Index>& log;
+      [[nodiscard]] bool complete() const { return wave.queue().complete(); }
+      [[nodiscard]] std::size_t size() const { return wave.queue().count(); }
+      Index operator[](std::size_t i) const { return log[i]; }
+    } const changed = {this->wave_, this->log_};
+    propagation.run_around(changed);
   }
 };
 

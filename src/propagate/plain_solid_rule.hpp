@@ -23,7 +23,7 @@ template <class Real, class Front>
 class PlainSolidRule : kernel::HingeKernel<Real, 2> {
   using Kernel = kernel::HingeKernel<Real, 2>;
   using Kernel::K, Kernel::KE, Kernel::make_pose, Kernel::locate, Kernel::carry, Kernel::behind,
-      Kernel::crossing, Kernel::vertex_point, Kernel::distance_squared;
+      Kernel::vertex_point, Kernel::distance_squared;
   using typename Kernel::HingePose, typename Kernel::HingePoint, typename Kernel::HingeStep;
 
  public:
@@ -165,45 +165,6 @@ class PlainSolidRule : kernel::HingeKernel<Real, 2> {
     return accept(t, hinge, best, best.sigma, front_->source(u));
   }
 
-  /// The distance of a point of u, given by one coordinate a corner, by the label of t: u itself,
-  /// or one that touches it. It is the length of a path over what they have in common.
-  [[nodiscard]] Real distance_at(Index t, Index u, const std::array<double, 4>& at) const {
-    const Label& from = front_->label(t);
-    Real off2[4];
-    for (Index i = 0; i < 4; ++i) off2[i] = std::max(squared_from(u, at, i), Real(0));
-    if (t == u) return from.sigma + distance_by(t, from, at);
-    for (Index face = 0; face < 4; ++face) {
-      const Index across = tets_[t].across[face];
-      if (across >> TetAcross::tet_shift != u) continue;
-      const SolidHinge hinge = pose_face(from, t, u, across & TetAcross::face_mask);
-      const Real q2[3] = {off2[hinge.there[0]], off2[hinge.there[1]], off2[hinge.there[2]]};
-      const HingePoint q = locate(hinge.pose, q2);
-      const auto step = carry(hinge.pose, hinge.source, from.sigma, q, false, face_tolerance);
-      return step.sigma + std::sqrt(distance_squared(hinge.pose, step.source, q));
-    }
-    Real best = std::numeric_limits<Real>::infinity();
-    for (Index i = 0; i < 4; ++i)
-      for (Index j = 0; j < 4; ++j)
-        if (vertex_of(t, i) == vertex_of(u, j))
-          best = std::min(best, corner_distance(t, i) + std::sqrt(off2[j]));
-    return best;
-  }
-
-  /// Length of the path from the source of t through a face to that of the neighbour; +inf if none
-  /// passes there.
-  [[nodiscard]] Real meeting_over(Index t, Index face) const {
-    const Index across = tets_[t].across[face], u = across >> TetAcross::tet_shift;
-    const Label &here = front_->label(t), &beyond = front_->label(u);
-    const SolidHinge hinge = pose_face(here, t, u, across & TetAcross::face_mask);
-    Real other2[3];
-    for (int i = 0; i < 3; ++i) other2[i] = beyond.distance2[hinge.there[i]];
-    const HingePoint other = locate(hinge.pose, other2);
-    if (!Kernel::inside(hinge.pose, crossing(hinge.source, other), face_tolerance))
-      return std::numeric_limits<Real>::infinity();
-    return here.sigma + beyond.sigma +
-           std::sqrt(distance_squared(hinge.pose, hinge.source, other));
-  }
-
  private:
   static constexpr Real face_tolerance = sizeof(Real) == 4 ? Real(2e-4) : Real(1e-9);
   static constexpr Real bend_penalty = 1 + 32 * std::numeric_limits<Real>::epsilon();
@@ -225,23 +186,11 @@ class PlainSolidRule : kernel::HingeKernel<Real, 2> {
     double sum = 0;
     for (Index j = 0; j < 4; ++j)
       if (j != i) sum += b[j] * static_cast<double>(squared_edge(t, tet_edge(i, j)));
-    return static_cast<Real>(sum - within(t, b));
-  }
-  /// The last sum: how much farther corners are in the mean of squares.
-  [[nodiscard]] double within(Index t, const std::array<double, 4>& b) const {
-    double sum = 0;
     for (Index e = 0; e < 6; ++e)
-      sum += b[tet_edge_ends[e][0]] * b[tet_edge_ends[e][1]] *
+      sum -= b[tet_edge_ends[e][0]] * b[tet_edge_ends[e][1]] *
              static_cast<double>(squared_edge(t, e));
-    return sum;
+    return static_cast<Real>(sum);
   }
-  /// From the virtual source to a point of t.
-  [[nodiscard]] Real distance_by(Index t, const Label& label, const std::array<double, 4>& b) const {
-    double sum = -within(t, b);
-    for (std::size_t i = 0; i < 4; ++i) sum += b[i] * static_cast<double>(label.distance2[i]);
-    return static_cast<Real>(std::sqrt(std::max(sum, 0.)));
-  }
-
   bool accept(Index t, Index hinge, Label& label, Real sigma, Index source) const {
     label.sigma = sigma;
     label.centre = centre_distance(t, label);

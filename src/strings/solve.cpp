@@ -293,8 +293,8 @@ Solver::Outcome Solver::past_corners(Attempt& a, Index to, Outcome outcome) {
     std::size_t begin = i, end = i + 1;
     while (begin > 0 && is_there(begin - 1)) --begin;
     while (end < a.places.size() && is_there(end)) ++end;
-    outcome = past_corner(a, to, outcome, begin, end, corner);
-    i = std::min(begin, a.places.size());
+    // Shorter now: from the end again.
+    i = past_corner(a, to, outcome, begin, end, corner) ? a.places.size() : begin;
   }
   return outcome;
 }
@@ -302,8 +302,8 @@ Solver::Outcome Solver::past_corners(Attempt& a, Index to, Outcome outcome) {
 // The places from `begin` to `end` are all at one vertex: others there instead of them. To first
 // order the string gets shorter where the angles from one leg over the rows to the other are less
 // than pi in all.
-Solver::Outcome Solver::past_corner(Attempt& a, Index to, Outcome outcome, std::size_t begin,
-                                    std::size_t end, Index corner) {
+bool Solver::past_corner(Attempt& a, Index to, Outcome& outcome, std::size_t begin, std::size_t end,
+                         Index corner) {
   ++counts_.held;
   constexpr double straight = std::numbers::pi - 1e-7;
   const Point at = space_->point(corner), in = a.string.corner(begin) - at,
@@ -311,7 +311,7 @@ Solver::Outcome Solver::past_corner(Attempt& a, Index to, Outcome outcome, std::
   const auto angle = [](const Point& p, const Point& q) {
     return std::atan2(norm(cross(p, q)), dot(p, q));
   };
-  if (angle(in, out) >= straight) return outcome;
+  if (angle(in, out) >= straight) return false;
   std::array<Row, 16> rows;
   std::size_t count = 0;
   for (const auto& [vertex, row] : space_->rows_at(corner)) {
@@ -340,14 +340,14 @@ Solver::Outcome Solver::past_corner(Attempt& a, Index to, Outcome outcome, std::
     outcome = Outcome::free;
     return true;
   };
-  if (tries()) return outcome;
+  if (tries()) return true;
   const std::span<const Row> all(rows.data(), count);
   for (const Row& first : all)
-    if (tries(first)) return outcome;
+    if (tries(first)) return true;
   for (const Row& first : all)
     for (const Row& second : all)
-      if (first.place != second.place && tries(first, second)) return outcome;
-  return outcome;
+      if (first.place != second.place && tries(first, second)) return true;
+  return false;
 }
 
 bool Solver::settle_past(const Attempt& a, Index to, double least, std::size_t begin,

@@ -104,8 +104,8 @@ class Solver {
   void attempt_corner(Index from, const Label& label, Index to);
   Outcome settle(Attempt& attempt, Index to, double least);
   Outcome past_corners(Attempt& attempt, Index to, Outcome outcome);
-  Outcome past_corner(Attempt& attempt, Index to, Outcome outcome, std::size_t begin,
-                      std::size_t end, Index corner);
+  bool past_corner(Attempt& attempt, Index to, Outcome& outcome, std::size_t begin, std::size_t end,
+                   Index corner);
   bool settle_past(const Attempt& attempt, Index to, double least, std::size_t begin,
                    std::size_t end, std::span<const Row> rows, const Point& corner);
   static Point last_leg(const Attempt& a) {

@@ -5,14 +5,13 @@
 #include <random>
 
 #include <plexway/error.hpp>
-#include <plexway/io/tets.hpp>
 #include <plexway/solve.hpp>
 
 #include "complex/test_solids.hpp"
-#include "exact_data.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
 #include "propagate/solid_solving.hpp"
+#include "with_accuracy.hpp"
 
 namespace plexway::testing::solid_pieces_test {
 
@@ -46,7 +45,7 @@ TEMPLATE_TEST_CASE("pieces: solids have the same bits with any number of threads
     DistanceField<TestType> first, field;
     for (const Visibility visibility : solid_visibilities)
       for (const std::size_t count : {1u, 4u}) {
-        PropagateOptions options;
+        PropagateOptions options = by_labels();
         options.visibility = visibility;
         const auto sources = random_sources(mesh, count, ++seed);
         solve(pieces(1, 60), mesh, sources, options, workspace, first);
@@ -72,61 +71,28 @@ TEST_CASE("pieces: 200 solves of a solid on eight threads are one", "[threads]")
   const auto sources = random_sources(mesh, 3, 1);
   Workspace<float> workspace;
   DistanceField<float> first, field;
-  solve(pieces(8, 300), mesh, sources, {}, workspace, first);
+  solve(pieces(8, 300), mesh, sources, by_labels(), workspace, first);
   std::size_t others = 0;
   for (int i = 0; i < 200; ++i) {
-    solve(pieces(8, 300), mesh, sources, {}, workspace, field);
+    solve(pieces(8, 300), mesh, sources, by_labels(), workspace, field);
     others += !same_bits(first, field);
   }
   CHECK(others == 0);
 }
 
-TEMPLATE_TEST_CASE("pieces: convex solids are exact", "", float, double) {
-  const Solid s = solid_cube(6, 0.3);
-  const auto mesh = s.mesh<TestType>();
-  for (const std::size_t size : {20u, 150u, 600u})
-    for (const Index source : {Index{0}, static_cast<Index>(s.positions.size() / 2)}) {
-      const auto field = solve(pieces(2, size), mesh, PointSource::at(source));
-      double worst = 0;
-      for (std::size_t v = 0; v < s.positions.size(); ++v) {
-        const auto &p = s.positions[v], &q = s.positions[source];
-        const double exact = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
-        worst = std::max(worst, std::abs(static_cast<double>(field.distance[v]) - exact));
-      }
-      CHECK(worst < (sizeof(TestType) == 4 ? 2e-6 : 1e-13));
-    }
-}
-
-TEST_CASE("pieces: around one edge solids are exact, and as accurate as Serial around several") {
+TEST_CASE("pieces: labels of solids are as accurate as Serial's") {
+  double serial = 0, by_pieces = 0;
   for (const auto& [name, s] : solids()) {
     const auto mesh = s.mesh<double>();
-    const bool one_edge = std::string(name) == "cube" || std::string(name) == "L";
     for (unsigned seed = 1; seed <= 2; ++seed) {
       const auto sources = random_sources(mesh, 1, seed);
-      const Parity p = parity(solve(Serial{}, mesh, sources), solve(pieces(2, 60), mesh, sources));
-      INFO(name << ", seed " << seed << ": " << p.mean << ", worst " << p.worst);
-      CHECK(p.reached_by_one == 0);
-      CHECK(p.worst < (one_edge ? 1e-12 : 2e-2));
-      CHECK(p.mean < (one_edge ? 1e-13 : 1e-3));
-    }
-  }
-  double serial = 0, by_pieces = 0;
-  for (const auto& file : exact_files("solids", ".ele")) {
-    const auto read = io::read_tets(file);
-    if (read.tets.size() > 40'000) continue;
-    const TetMesh<double> mesh(read.positions, read.tets);
-    for (const ExactAnswer& exact : exact_answers(file)) {
-      const auto source = PointSource::at(static_cast<Index>(exact.source));
-      const auto mean = [&](const DistanceField<double>& field) {
-        double sum = 0;
-        std::size_t count = 0;
-        for (std::size_t v = 0; v < exact.distance.size(); ++v)
-          if (exact.distance[v] > 0 && std::isfinite(exact.distance[v]))
-            sum += std::abs(field.distance[v] / exact.distance[v] - 1), ++count;
-        return sum / static_cast<double>(count);
-      };
-      serial += mean(solve(Serial{}, mesh, source));
-      by_pieces += mean(solve(pieces(2, 1000), mesh, source));
+      const auto exact = solve(Serial{}, mesh, sources);  // strings
+      const Parity one = parity(exact, solve(Serial{}, mesh, sources, by_labels()));
+      const Parity several = parity(exact, solve(pieces(2, 60), mesh, sources, by_labels()));
+      INFO(name << ", seed " << seed << ": " << several.mean << ", worst " << several.worst);
+      CHECK(several.reached_by_one == 0);
+      serial += one.mean;
+      by_pieces += several.mean;
     }
   }
   REQUIRE(serial > 0);
@@ -137,8 +103,8 @@ TEST_CASE("pieces: around one edge solids are exact, and as accurate as Serial a
 TEST_CASE("pieces: radius, offsets and budgets in solids", "[threads]") {
   const Solid s = l_shape(8);
   const auto mesh = s.mesh<double>();
-  const auto whole = solve(pieces(4, 100), mesh, PointSource::at(0));
-  PropagateOptions options;
+  const auto whole = solve(pieces(4, 100), mesh, PointSource::at(0), by_labels());
+  PropagateOptions options = by_labels();
   options.radius = 0.5;
   PointSource from = PointSource::at(0);
   from.offset = 0.1;
@@ -156,21 +122,21 @@ TEST_CASE("pieces: radius, offsets and budgets in solids", "[threads]") {
   CHECK(wrong == 0);
   CHECK(beyond > 10);
   for (const std::size_t most : {0u, 1u, 300u}) {
-    options = {};
+    options = by_labels();
     options.max_expansions = most;
     const auto field = solve(pieces(4, 100), mesh, PointSource::at(0), options);
     CHECK(!field.complete);
     CHECK(field.statistics.expansions == most);
     CHECK(same_bits(field, solve(pieces(1, 100), mesh, PointSource::at(0), options)));
   }
-  options = {};
+  options = by_labels();
   options.progress = [](const Progress&) { return false; };
   Workspace<double> workspace;
   DistanceField<double> field;
   const PointSource source[] = {PointSource::at(0)};
   const auto large = solid_cube(24).mesh<double>();
   CHECK_THROWS_AS(solve(pieces(4, 2000), large, source, options, workspace, field), Cancelled);
-  solve(pieces(4, 100), mesh, source, {}, workspace, field);
+  solve(pieces(4, 100), mesh, source, by_labels(), workspace, field);
   CHECK(same_bits(field, whole));
 }
 
