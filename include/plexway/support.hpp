@@ -68,8 +68,8 @@ constexpr Support support_of_windows(const Combination& c) {
   return Refusal::nothing;
 }
 
-/// Could strings, which solids are solved by (docs/methods/strings.md)? Else why not. By one thread,
-/// nearest first whatever the schedule.
+/// Could strings, which solids are solved by (docs/methods/strings.md)? Else why not. By one
+/// thread, nearest first whatever the schedule.
 constexpr Support support_of_strings(const Combination& c) {
   if (c.domain != DomainKind::solid) return Refusal::windows_domain;
   if (c.executor == ExecutorKind::gl) return Refusal::strings_gl;
@@ -101,8 +101,7 @@ constexpr Support support(const Combination& c) {
   const bool tuned = c.visibility == Visibility::tuned;
   const bool saddles = c.visibility == Visibility::saddles;
   const bool priority = c.schedule == Schedule::priority;
-  const bool not_fast =
-      c.accuracy == Accuracy::Kind::merged || c.accuracy == Accuracy::Kind::exact;
+  const bool not_fast = c.accuracy == Accuracy::Kind::merged || c.accuracy == Accuracy::Kind::exact;
   const bool shape = c.source == SourceKind::curve || c.source == SourceKind::simplex;
 
   // In parts over processes.
@@ -233,7 +232,7 @@ constexpr Support support(Purpose purpose, const Combination& c) {
     case Purpose::read_out:
       if (c.domain == simplices) return Refusal::read_out_simplices;
       if (c.domain == cloud) return Refusal::read_out_cloud;
-      if (c.domain == wireframe) break;                               // by the ends
+      if (c.domain == wireframe) break;                                 // by the ends
       if (c.domain == mixed || refracting || c.domain == solid) break;  // by paths
       if (!labels) return Refusal::read_out_labels;
       break;

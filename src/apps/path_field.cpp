@@ -76,8 +76,8 @@ double distance_in(const TriangleMesh<Real>& mesh, const SurfaceReadOut<Real>& r
   return read_out.at(f, inside(at.barycentric, turned), level) * mesh.unit();
 }
 template <class Real>
-double distance_in(const TetMesh<Real>& mesh, const StringPaths<Real>& paths,
-                   const PointSource& at, ReadOut level) {
+double distance_in(const TetMesh<Real>& mesh, const StringPaths<Real>& paths, const PointSource& at,
+                   ReadOut level) {
   const auto [t, turned] = mesh.inside_tet(at.simplex);
   std::array<double, 4> weight = at.barycentric;
   if (turned) std::swap(weight[2], weight[3]);

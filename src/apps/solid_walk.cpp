@@ -19,8 +19,8 @@ typename SolidWalk<Real>::Barycentric SolidWalk<Real>::barycentric(Index t, cons
 }
 
 template <class Real>
-double SolidWalk<Real>::leaves(Index t, const Point& p, const Point& q, double at,
-                               double tolerance, Index& face) const {
+double SolidWalk<Real>::leaves(Index t, const Point& p, const Point& q, double at, double tolerance,
+                               Index& face) const {
   const Barycentric from = barycentric(t, p), to = barycentric(t, q);
   double first = 1;
   face = none;

@@ -31,8 +31,8 @@ class SolidWalk {
   };
 
   /// From p, which lies in one of `from`, straight to q, as long as that is in the closed solid.
-  /// Lines may run along its boundary, and be off by 1e-9 (float 1e-5) of a tetrahedron; by more, to
-  /// 1e-2, where they do not arrive else. Each step gets on, so it ends. False if it did not
+  /// Lines may run along its boundary, and be off by 1e-9 (float 1e-5) of a tetrahedron; by more,
+  /// to 1e-2, where they do not arrive else. Each step gets on, so it ends. False if it did not
   /// arrive. Cost: 0.2 us a tetrahedron.
   bool walk(std::span<const Index> from, const Point& p, const Point& q,
             std::vector<Step>* steps) const;

@@ -54,8 +54,8 @@ Path StringPaths<Real>::cut(const SolidStrings::Found& found, std::vector<Index>
     const auto& before_it = mesh_.tets()[from].corner;
     double sum = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-      const bool common = std::find(std::begin(before_it), std::end(before_it), corner[i]) !=
-                          std::end(before_it);
+      const bool common =
+          std::find(std::begin(before_it), std::end(before_it), corner[i]) != std::end(before_it);
       if (!(b[i] > 1e-15) || !common) b[i] = 0;
       sum += b[i];
     }
@@ -100,8 +100,8 @@ double StringPaths<Real>::at(Index t, const std::array<double, 4>& weight, ReadO
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i)
     if (weight[i] > 0)  // other corners may be at infinity
-      sum += weight[i] * static_cast<double>(
-                             solved_.field.distance[solved_.outer[mesh_.tets()[t].corner[i]]]);
+      sum += weight[i] *
+             static_cast<double>(solved_.field.distance[solved_.outer[mesh_.tets()[t].corner[i]]]);
   return sum;
 }
 

@@ -84,8 +84,7 @@ class PlainSolidRule : kernel::HingeKernel<Real, 2> {
 
   bool seed_corner(Index t, Index i, Real sigma, Index source) const {
     Label label;
-    for (Index j = 0; j < 4; ++j)
-      label.distance2[j] = i == j ? 0 : squared_edge(t, tet_edge(i, j));
+    for (Index j = 0; j < 4; ++j) label.distance2[j] = i == j ? 0 : squared_edge(t, tet_edge(i, j));
     return accept(t, (i + 1) & 3, label, sigma, source);
   }
 
@@ -187,8 +186,8 @@ class PlainSolidRule : kernel::HingeKernel<Real, 2> {
     for (Index j = 0; j < 4; ++j)
       if (j != i) sum += b[j] * static_cast<double>(squared_edge(t, tet_edge(i, j)));
     for (Index e = 0; e < 6; ++e)
-      sum -= b[tet_edge_ends[e][0]] * b[tet_edge_ends[e][1]] *
-             static_cast<double>(squared_edge(t, e));
+      sum -=
+          b[tet_edge_ends[e][0]] * b[tet_edge_ends[e][1]] * static_cast<double>(squared_edge(t, e));
     return static_cast<Real>(sum);
   }
   bool accept(Index t, Index hinge, Label& label, Real sigma, Index source) const {

@@ -189,7 +189,6 @@ class SolidPropagation {
     return any;
   }
 
-
  private:
   /// Offers that miss a face where no path bends are dropped. Where that leaves a tetrahedron
   /// without a label, or with one much longer than a neighbour's and the way between, they are

@@ -20,9 +20,9 @@ inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}
 
 #include "kernel/text_begin.inl"
 
-/// The rule of mixed domains and samples in solids in space: a label is a string from a point around reflex edges,
-/// which are the only places where paths bend, and is walked through the tetrahedra before it
-/// counts.
+/// The rule of mixed domains and samples in solids in space: a label is a string from a point
+/// around reflex edges, which are the only places where paths bend, and is walked through the
+/// tetrahedra before it counts.
 template <class Real, class Front>
 class SolidRule : public SolidPaths<Real> {
   using Paths = SolidPaths<Real>;

@@ -70,7 +70,8 @@ struct WorkspaceState {
            saddles.count * sizeof(SaddleLabel<Real>) + plain.count * sizeof(PlainLabel<Real>) +
            solids.count * sizeof(SolidLabel<Real>) +
            plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +
-           windows.bytes() + of(vertex) + of(vertex_source) + of(corners) + (lowering ? sizeof(*lowering) + lowering->bytes() : 0) +
+           windows.bytes() + of(vertex) + of(vertex_source) + of(corners) +
+           (lowering ? sizeof(*lowering) + lowering->bytes() : 0) +
            front.capacity * 2 * sizeof(Index) + of(front.heap) + team.bytes() + pieces.bytes();
   }
 };

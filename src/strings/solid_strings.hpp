@@ -22,8 +22,8 @@ namespace plexway {
 /// What a solve by strings leaves; its memory is used again by the next one.
 class SolidStrings {
  public:
-  /// The shortest path to a point; its bends and both ends, from the source on, in the solid's frame
-  /// inside (TetMesh::points). No points where no path leads.
+  /// The shortest path to a point; its bends and both ends, from the source on, in the solid's
+  /// frame inside (TetMesh::points). No points where no path leads.
   struct Found {
     double distance;  ///< in the solid's unit
     Index source;

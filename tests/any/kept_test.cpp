@@ -58,9 +58,7 @@ void check_same(const AnyDomain& built, const AnyDomain& opened,
   CHECK(elsewhere == built.shape().simplices());
   CHECK(opened.shape().simplices() == built.shape().simplices());
   for (const Accuracy accuracy : {Accuracy::fast(), Accuracy::accurate()}) {
-    if (accuracy == Accuracy::accurate() && built.kind() != DomainKind::surface &&
-        built.kind() != DomainKind::cloud)
-      continue;
+    if (accuracy == Accuracy::accurate() && built.kind() == DomainKind::wireframe) continue;
     PropagateOptions options;
     options.accuracy = accuracy;
     for (const PointSource& source : sources) {

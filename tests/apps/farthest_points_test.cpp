@@ -104,7 +104,8 @@ TEST_CASE("a matrix of parts apart says inf and never nan") {
   CHECK_THROWS_AS(distance_matrix(Serial{}, mesh, {}), UsageError);
 }
 
-TEST_CASE("no points are spread over a solid with a crack, but those that are given have a matrix") {
+TEST_CASE(
+    "no points are spread over a solid with a crack, but those that are given have a matrix") {
   const testing::Cracked cracked(testing::one_slit, 0.16, 3, 0.3);
   const TetMesh<double> solid(cracked.places, cracked.tets);
   REQUIRE(solid.has_crack());

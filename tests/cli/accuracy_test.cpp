@@ -99,6 +99,21 @@ TEST_CASE("pairs and bench know the accuracy") {
   CHECK(bench.json()["accuracy"] == "accurate");
 }
 
+TEST_CASE("solids have the accuracies fast and accurate") {
+  for (const char* accuracy : {"fast", "accurate"}) {
+    const auto run = run_tool({"distance", sample("elbow.mesh"), "--source", "vertex:0",
+                               "--accuracy", accuracy, "--json"});
+    INFO(run.err);
+    REQUIRE(run.code == 0);
+    CHECK(run.json()["accuracy"] == accuracy);
+  }
+  const auto usual =
+      run_tool({"pairs", sample("elbow.mesh"), "-s", "vertex:0", "-s", "vertex:9", "--json"});
+  INFO(usual.err);
+  REQUIRE(usual.code == 0);
+  CHECK(usual.json()["accuracy"] == "accurate");
+}
+
 TEST_CASE("an accuracy that cannot be is refused in one line") {
   const auto refused = [](std::vector<std::string> arguments) {
     const auto run = run_tool(arguments);
@@ -118,8 +133,10 @@ TEST_CASE("an accuracy that cannot be is refused in one line") {
   refused({"distance", sample("elbow.mesh"), "--source", "vertex:0", "--accuracy", "exact"});
   refused(
       {"path", knot, "--from", "vertex:0", "--to", "vertex:9", "--astar", "--accuracy", "exact"});
-  refused({"pairs", sample("elbow.mesh"), "-s", "vertex:0", "-s", "vertex:9", "--accuracy",
-           "accurate"});
+  refused(
+      {"pairs", sample("elbow.mesh"), "-s", "vertex:0", "-s", "vertex:9", "--accuracy", "exact"});
+  refused({"distance", sample("elbow.mesh"), "--source", "vertex:0", "--accuracy", "accurate",
+           "--visibility", "centroid"});
 }
 
 TEST_CASE("labels that got much wrong on a tube that winds say so, and name the cure") {

@@ -100,7 +100,8 @@ double check_errors(const Solid& s, Index source, const std::vector<double>& exa
     worst = std::max(worst, compare(serial(mesh, Sources(&at, 1), options), exact).max);
   }
   if (openmp_built())
-    worst = std::max(worst, compare(solve(OpenMP{.threads = 1}, mesh, at, by_labels()).distance, exact).max);
+    worst = std::max(
+        worst, compare(solve(OpenMP{.threads = 1}, mesh, at, by_labels()).distance, exact).max);
   CAPTURE(source, e.mean, e.max, worst);
   CHECK(e.fits);
   CHECK(e.max <= worst * (1 + 1e-5));

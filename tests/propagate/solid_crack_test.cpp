@@ -144,7 +144,8 @@ TEST_CASE("solids without cracks take sources anywhere, also where they touch an
     if (pair.places[v][0] == 0) CHECK(refusal(both, PointSource::at(v)).empty());
 }
 
-TEST_CASE("a source on a crack of a piece is refused by its number, of solids that join it is right") {
+TEST_CASE(
+    "a source on a crack of a piece is refused by its number, of solids that join it is right") {
   const Cracked cracked(one_slit, 0.16, 3, 0.3);
   Cracked block(one_slit, 0.16, 3, 0.3);
   for (auto& p : block.places) p[0] -= 1;  // beside it: the walls meet
@@ -163,7 +164,8 @@ TEST_CASE("a source on a crack of a piece is refused by its number, of solids th
       }
       const auto field = solve(Serial{}, domain, PointSource::at(number));
       const auto begin = field.distance.begin() + second.first_vertex;
-      const std::vector<double> own(begin, begin + static_cast<std::ptrdiff_t>(cracked.places.size()));
+      const std::vector<double> own(begin,
+                                    begin + static_cast<std::ptrdiff_t>(cracked.places.size()));
       const Errors e = compare(own, cracked.exact(cracked.beside[v]));
       CAPTURE(v, e.mean, e.max, e.below);
       CHECK(e.fits);

@@ -64,7 +64,7 @@ class PathField<Domain<Real>> {
 
   /// The distance of every vertex from the nearest of `sources`. Throws and costs as
   /// plexway::solve. Paths can be traced after an executor that leaves no labels as well, by the
-  /// vertices' distances alone.
+  /// vertices' distances alone; in solids in space strings are then solved for them.
   template <class Executor>
   const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
                                    const PropagateOptions& options = {}) {
@@ -99,9 +99,9 @@ class PathField<Domain<Real>> {
   /// distance: after Accuracy::exact() to rounding, else to what that is off. After labels it is at
   /// most 1 % longer than the shortest way along edges, and mostly the shortest of all
   /// (TraceOptions, whose margin is refused elsewhere). On surfaces with refracting
-  /// edges it is refracted, as on mixed domains (mixed_path_field.hpp). In solids it bends only at
-  /// reflex edges and vertices. Solids without coordinates are as if refracting: each
-  /// tetrahedron is flat in its own lengths.
+  /// edges it is refracted, as on mixed domains (mixed_path_field.hpp). In solids it is the string
+  /// to the point, as long as the distance by strings. Solids without coordinates are as if
+  /// refracting: each tetrahedron is flat in its own lengths.
   ///
   /// Throws UsageError for a point that is not in the domain, or before a solve. Any number of
   /// threads may trace at once. Cost: about that of looking at each simplex on the way some ten
@@ -114,8 +114,8 @@ class PathField<Domain<Real>> {
 
   /// The distance of any point of the domain, in its unit; its offset does not count. +inf where no
   /// path leads. `linear` needs the vertices' distances only; the other levels ask the virtual
-  /// sources that Visibility::saddles or windows left, with Serial and OpenMP. In solids `star`
-  /// asks what `neighbours` asks; along the edges of
+  /// sources that Visibility::saddles or windows left, with Serial and OpenMP. In solids they are
+  /// the length of the string to the point, after any solve; along the edges of
   /// wireframes all levels but `linear` are exact. A solve's radius bounds the distances of
   /// vertices, so `linear`; the labels that other levels ask go on by about a simplex. After
   /// windows (Accuracy) all levels but `linear` ask those, and are as accurate as they are: exact
@@ -126,7 +126,7 @@ class PathField<Domain<Real>> {
   /// that is asked; docs/how-to/read-out.md has what jumps. Throws UsageError for a
   /// point that is not in the domain, before a solve, and without such labels.
   /// Any number of threads may ask at once. Cost: on surfaces 1, 1, 4 and at most 31 labels looked
-  /// at, in solids 1, 1 and 5.
+  /// at, in solids that of a vertex of a solve.
   [[nodiscard]] double at(const PointSource& point, ReadOut level = ReadOut::neighbours) const;
   /// By a simplex and one coordinate a corner.
   template <std::size_t N>

@@ -125,7 +125,8 @@ namespace plexway {
   X(windows_domain,                                                                                \
     "accuracies other than fast are for surfaces, clouds and solids: other domains have one, ask " \
     "for fast")                                                                                    \
-  X(strings_gl, "the executor GL solves solids by the accuracy fast: use that, or another executor") \
+  X(strings_gl,                                                                                    \
+    "the executor GL solves solids by the accuracy fast: use that, or another executor")           \
   X(strings_lengths,                                                                               \
     "a solid without coordinates has no straight lines in space to measure: use the accuracy fast")   \
   X(strings_visibility,                                                                            \

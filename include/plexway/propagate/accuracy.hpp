@@ -2,7 +2,7 @@
 
 namespace plexway {
 
-/// How accurate distances on a surface or a cloud shall be: an error, or one of the names.
+/// How accurate distances on a surface, a cloud or in a solid shall be: an error, or a name.
 ///
 /// A number is the mean relative error to expect at vertices, away from thin triangles: windows are
 /// merged as long as that stays so. It is no bound; single vertices may be off by a hundred times
@@ -12,19 +12,19 @@ namespace plexway {
 /// expect.
 class Accuracy {
  public:
-  /// By which rule: `usual` chooses one, `fast` is labels, `merged` and `exact` are windows.
+  /// By which rule: `usual` chooses one, `fast` is labels, the others windows, in solids strings.
   enum class Kind { usual, fast, merged, exact };
 
-  /// For who does not choose: `accurate` where windows go (support.hpp), else `fast`. So it is
-  /// `fast` on executor GL, under refraction, and with options that are
-  /// of labels (Visibility but saddles, a step). Sheets of a mixed domain that join to one surface
-  /// are solved by windows, in double exactly. Where windows become too many, labels take over
+  /// For who does not choose: `accurate` where windows or, in solids, strings go (support.hpp),
+  /// else `fast`. So it is `fast` on executor GL, under refraction, and with options that are of
+  /// labels (Visibility but saddles, a step). Sheets of a mixed domain that join to one surface are
+  /// solved by windows, in double exactly. Where windows become too many, labels take over
   /// (PropagateStatistics::windows_gave_up); asked for by name, windows end with EndlessError
   /// there.
   static constexpr Accuracy usual() { return Accuracy(Kind::usual, 7e-5); }
   /// One label a simplex: on surfaces mean errors of 3e-4 to 2e-3, single vertices more.
   static constexpr Accuracy fast() { return Accuracy(Kind::fast, 1e-3); }
-  /// Merged windows.
+  /// Merged windows; in solids strings.
   static constexpr Accuracy accurate() { return Accuracy(7e-5); }
   /// All windows, in double: nothing but rounding. For a TriangleMesh<double>: the other one's
   /// lengths are themselves rounded to 6e-8.

@@ -31,13 +31,12 @@ std::vector<std::string_view> built_executors() {
 }
 
 bool has_accuracies(DomainKind kind) {
-  return static_cast<bool>(support_of_accuracy({.executor = ExecutorKind::serial,
-                                                .domain = kind,
-                                                .dimension = 2,
-                                                .single_precision = true,
-                                                .metric = kind == DomainKind::solid
-                                                              ? MetricKind::embedded
-                                                              : MetricKind::intrinsic}));
+  return static_cast<bool>(support_of_accuracy(
+      {.executor = ExecutorKind::serial,
+       .domain = kind,
+       .dimension = 2,
+       .single_precision = true,
+       .metric = kind == DomainKind::solid ? MetricKind::embedded : MetricKind::intrinsic}));
 }
 
 Json json_of(Accuracy accuracy) {

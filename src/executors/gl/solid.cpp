@@ -15,7 +15,8 @@ namespace {
 using namespace gl;
 
 struct SolidBuffers final : GLWorkspace::Implementation::DomainBuffers {
-  Buffer tets{"tetrahedra"}, lengths{"lengths"}, corners{"corners at vertices"}, inside{"vertex numbers"};
+  Buffer tets{"tetrahedra"}, lengths{"lengths"}, corners{"corners at vertices"},
+      inside{"vertex numbers"};
 
   std::vector<Buffer*> all() override { return {&tets, &lengths, &corners, &inside}; }
 };
@@ -33,8 +34,8 @@ std::vector<std::array<float, 6>> squared_lengths(const TetMesh<float>& mesh) {
   for (Index t = 0; t < mesh.tet_count(); ++t)
     for (std::size_t e = 0; e < 6; ++e) {
       const Index* const corner = mesh.tets()[t].corner;
-      const auto along = mesh.points()[corner[tet_edge_ends[e][1]]] -
-                         mesh.points()[corner[tet_edge_ends[e][0]]];
+      const auto along =
+          mesh.points()[corner[tet_edge_ends[e][1]]] - mesh.points()[corner[tet_edge_ends[e][0]]];
       lengths[t][e] = dot(along, along);
     }
   return lengths;
