@@ -128,7 +128,8 @@ namespace plexway {
   X(strings_gl,                                                                                    \
     "the executor GL solves solids by the accuracy fast: use that, or another executor")           \
   X(strings_lengths,                                                                               \
-    "a solid without coordinates has no straight lines in space to measure: use the accuracy fast")   \
+    "a solid without coordinates has no straight lines in space to measure: use the accuracy "     \
+    "fast")                                                                                        \
   X(strings_visibility,                                                                            \
     "strings know what they see: use the policy saddles, or the accuracy fast")                    \
   X(strings_exact, "solids have no accuracy exact: ask for accurate")                              \
