@@ -17,9 +17,9 @@ double longest_of(const Row& lengths) {
 }
 
 /// Two lengths given for one edge of simplices with edges as long as `longest`: by more than
-/// numbers of six digits are rounded.
+/// numbers of six digits are rounded. Those below 0 are refused by themselves.
 inline bool differ_much(double one, double other, double longest) {
-  return std::abs(one - other) > 1e-5 * longest;
+  return one >= 0 && other >= 0 && std::abs(one - other) > 1e-5 * longest;
 }
 
 [[noreturn]] inline void refuse_two_lengths(Index a, Index b, double one, double other) {

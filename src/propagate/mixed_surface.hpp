@@ -109,7 +109,9 @@ class MixedSurface final : public MixedPiece<Real> {
     const Real x = from.x / unit_, y = from.y / unit_, h = from.h / unit_;
     const Real sigma = from.sigma / unit_;
     if (dimension == 1) {
-      const auto [edge, turned] = edge_of(m);
+      const auto place = edge_of(m);
+      const auto edge = place.first;
+      const bool turned = place.second;
       const Real length = mesh_.triangles()[m.simplex].length[edge];
       const auto along = [&](Real at) { return turned ? length - at : at; };
       typename Rule::Posed p;

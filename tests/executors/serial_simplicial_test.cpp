@@ -24,6 +24,7 @@ SimplicialComplex<double, N> thrown_together(unsigned seed) {
   const double wild = std::pow(10, 6 * uniform(random)), zero = uniform(random) < .5 ? .3 : 0;
   std::vector<std::array<Index, N + 1>> simplices;
   std::vector<std::array<double, N*(N + 1) / 2>> lengths;
+  std::map<std::pair<Index, Index>, double> drawn;  // of each edge
   while (simplices.size() < count) {
     std::array<Index, N + 1> corners;
     for (Index& v : corners) v = below(random, vertices);
@@ -31,8 +32,13 @@ SimplicialComplex<double, N> thrown_together(unsigned seed) {
     std::sort(sorted.begin(), sorted.end());
     if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) continue;
     simplices.push_back(corners);
-    for (double& l : lengths.emplace_back())
-      l = uniform(random) < zero ? 0 : std::pow(wild, uniform(random));
+    auto& row = lengths.emplace_back();
+    for (std::size_t j = 1, n = 0; j <= N; ++j)
+      for (std::size_t i = 0; i < j; ++i) {
+        const auto [known, first] = drawn.try_emplace(std::minmax(corners[i], corners[j]), 0);
+        if (first && uniform(random) >= zero) known->second = std::pow(wild, uniform(random));
+        row[n++] = known->second;
+      }
   }
   return {vertices, simplices, lengths};
 }
@@ -178,9 +184,17 @@ TEST_CASE("impossible lengths end and reach everything") {
   const KuhnGrid<3> grid = cube_grid<3>(6);
   const auto simplices = grid.simplices();
   for (const double wild : {1., 30., 1e6}) {
-    std::vector<std::array<double, 6>> lengths(simplices.size());
-    for (auto& row : lengths)
-      for (double& l : row) l = std::pow(wild, uniform(random)) * (.1 + uniform(random));
+    std::vector<std::array<double, 6>> lengths;
+    std::map<std::pair<Index, Index>, double> drawn;  // of each edge
+    for (const auto& corners : simplices) {
+      auto& row = lengths.emplace_back();
+      for (std::size_t j = 1, n = 0; j < 4; ++j)
+        for (std::size_t i = 0; i < j; ++i) {
+          const auto [known, first] = drawn.try_emplace(std::minmax(corners[i], corners[j]), 0);
+          if (first) known->second = std::pow(wild, uniform(random)) * (.1 + uniform(random));
+          row[n++] = known->second;
+        }
+    }
     const SimplicialComplex<float, 3> domain(grid.vertex_count(), simplices, lengths);
     CHECK(domain.summary().violated_simplices > 0);
     for (const Visibility visibility : {Visibility::centroid, Visibility::upper_bound}) {
