@@ -51,6 +51,7 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
   }
   sources_.clear();
   inside_.clear();
+  inside_.reserve(sources.size());
   for (const PointSource& s : sources) {
     if (s.vertex == none)
       inside_.emplace_back(mesh.inside_tet(s.simplex).first, static_cast<Index>(sources_.size()));
