@@ -398,8 +398,10 @@ def test_paths_and_read_out():
     truth = centre / np.linalg.norm(centre, axis=1)[:, None]
     outside = ~(F == 0).any(axis=1)
     for triangulation in ("input", "delaunay"):
-        away = px.Surface(V, F, precision="double", triangulation=triangulation).gradient(0)
-        assert np.abs(away - truth)[outside].max() < 1e-9
+        twice = px.Surface(V, F, precision="double", triangulation=triangulation)
+        for accuracy in ("fast", "accurate", "exact"):
+            away = twice.field(0, accuracy=accuracy).gradient()
+            assert np.abs(away - truth)[outside].max() < 1e-9
 
 
 def test_isolines_and_isosurfaces():

@@ -158,8 +158,13 @@ std::optional<std::array<double, 3>> SurfaceReadOut<Real>::towards(
   const TriangleRecord<Real>& t = triangles_[f];
   const std::size_t in = labels_.hinge(f), after = edge_after(in), apex = edge_before(in);
   const Point p = point_over(f, in, weight);
-  const Vector2 q = {p.x[0], p.h}, way = labels_.sight(f, q).bend - q;
+  const Vector2 q = {p.x[0], p.h};
   const double length = static_cast<double>(t.length[in]);
+  auto [source, bend] = labels_.sight(f, q);
+  // What a point off the centre does not see over that edge it sees over another, unless it bends.
+  const auto is_at = [&](double x) { return bend.x == x && bend.y == 0; };
+  if ((is_at(0) && !t.saddle(in)) || (is_at(length) && !t.saddle(after))) bend = source;
+  const Vector2 way = bend - q;
   const double height = static_cast<double>(t.apex_h(in));
   if (!(length > 0) || !(height > 0)) return std::nullopt;
   // As a change of the barycentric coordinates, as far as the rim.
