@@ -151,7 +151,7 @@ class Boundary(Source):
     offset: float = 0.0
 
 
-class OutOfRange(_plexway.UsageError, IndexError):  # type: ignore[misc,name-defined]
+class OutOfRange(_plexway.UsageError, IndexError):
     """A vertex or a simplex that the domain does not have."""
 
 

@@ -84,7 +84,7 @@ def test_a_point_and_a_segment_on_a_surface():
     at = [0.237, 0.581, 0]
     assert np.abs(px.distance(V, F, at, accuracy="fast") - straight(V, at)).max() < 3e-6
     assert np.abs(px.distance(V, F, at) - straight(V, at)).max() < 2e-4
-    for points in ([[0, 0, 0], [1, 1, 0]], np.array([[0, 0], [1, 1]]), ([0.0, 0, 0], (1, 1, 0))):
+    for points in ([[0.0, 0, 0], [1, 1, 0]], np.array([[0.0, 0], [1, 1]]), ([0.0, 0, 0], (1, 1, 0))):
         truth = np.minimum(straight(V, [0, 0, 0]), straight(V, [1, 1, 0]))
         assert np.abs(px.distance(V, F, points, accuracy="fast") - truth).max() < 3e-6
         assert np.abs(px.distance(V, F, points) - truth).max() < 2e-4

@@ -112,7 +112,7 @@ def test_lengths_and_speeds_that_are_not_taken_as_given_are_told():
     sheet = [None]
 
     def made():
-        sheet[0] = px.Surface(F=[[0, 1, 2], [0, 2, 3]], lengths=[[4, 3, 50], [5, 4, 3]])
+        sheet[0] = px.Surface(F=[[0, 1, 2], [0, 2, 3]], lengths=[[4, 3, 50], [50, 40, 30]])
 
     told = warned(made)
     assert sheet[0].notes == (str(told[0].message),)
