@@ -160,7 +160,8 @@ std::optional<std::array<double, 3>> SurfaceReadOut<Real>::towards(
   const Point p = point_over(f, in, weight);
   const Vector2 q = {p.x[0], p.h};
   const double length = static_cast<double>(t.length[in]);
-  auto [source, bend] = labels_.sight(f, q);
+  const auto [source, nearest] = labels_.sight(f, q);
+  auto bend = nearest;
   // What a point off the centre does not see over that edge it sees over another, unless it bends.
   const auto is_at = [&](double x) { return bend.x == x && bend.y == 0; };
   if ((is_at(0) && !t.saddle(in)) || (is_at(length) && !t.saddle(after))) bend = source;

@@ -80,14 +80,31 @@ TEST_CASE("the JSON of distance has its keys, in order") {
   const auto json = nlohmann::ordered_json::parse(run.out);
   std::vector<std::string> keys;
   for (const auto& item : json.items()) keys.push_back(item.key());
-  CHECK(keys == std::vector<std::string>{"input",           "kind",        "vertices",
-                                         "simplices",       "components",  "seconds",
-                                         "reached",         "unreached",   "max_distance",
-                                         "expansions",      "updates",     "lowered_vertices",
-                                         "raised_vertices", "executor",    "threads",
-                                         "precision",       "accuracy",    "triangulation",
-                                         "split_polygons",  "split_cells", "dropped_simplices",
-                                         "passed_over",     "notes"});
+  CHECK(keys == std::vector<std::string>{"input",
+                                         "kind",
+                                         "vertices",
+                                         "simplices",
+                                         "components",
+                                         "sources",
+                                         "seconds",
+                                         "reached",
+                                         "unreached",
+                                         "max_distance",
+                                         "farthest",
+                                         "expansions",
+                                         "updates",
+                                         "lowered_vertices",
+                                         "raised_vertices",
+                                         "executor",
+                                         "threads",
+                                         "precision",
+                                         "accuracy",
+                                         "triangulation",
+                                         "split_polygons",
+                                         "split_cells",
+                                         "dropped_simplices",
+                                         "passed_over",
+                                         "notes"});
   CHECK(json["input"] == sample("knot.ply"));
   CHECK(json["kind"] == "surface");
   CHECK(json["vertices"] == 5120);
