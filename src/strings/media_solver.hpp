@@ -1,0 +1,139 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "strings/chains.hpp"
+#include "strings/labels.hpp"
+#include "strings/media_space.hpp"
+#include "strings/pull.hpp"
+
+/// Shortest paths through several media, by strings.
+///
+/// A string is a source and a chain of doors: places where it bends or goes into another medium, and
+/// the medium behind. In the order of their distance nodes offer theirs to those that share an edge,
+/// through each place of the point as well. It is pulled taut; where it leaves a patch it slides on to
+/// the row there, where it wants back in it is let, what it lifts off is dropped, and where a leg
+/// leaves its medium the bend that it touches first is put in. All distances are lengths of paths.
+namespace plexway::strings {
+
+struct MediaSource {
+  Point at;
+  Index point = none;                 ///< if it is one
+  Index medium = none;                ///< else the one it is in, a solid
+  std::array<Index, 4> corners = {};  ///< points of its tetrahedron
+  Point beside = {0, 0, 0};           ///< a little inside that
+  double offset = 0;
+};
+
+class MediaSolver {
+ public:
+  explicit MediaSolver(const MediaSpace& space);
+
+  void solve(std::span<const MediaSource> sources);
+  [[nodiscard]] double distance(Index point) const { return best_[point]; }
+  /// The shortest path to a point, with both ends; empty where nothing leads.
+  [[nodiscard]] std::vector<Point> path(Index point);
+
+  struct Counts {
+    std::size_t expansions = 0, labels = 0, offers = 0, through = 0, pulls = 0, legs = 0,
+                touches = 0, slides = 0, lifts = 0, collapses = 0, corners = 0, stuck = 0, pairs = 0;
+  };
+  [[nodiscard]] const Counts& counts() const { return counts_; }
+  [[nodiscard]] const VertexLabels& labels(Index node) const { return nodes_[node]; }
+
+ private:
+  struct Root {
+    Index source, medium, node;
+  };
+  /// A string on its way to a new end. Each leg comes from where it was free.
+  struct Leg {
+    Point from, to;
+    bool known = false;
+  };
+  struct Attempt {
+    String string;
+    std::vector<Index> doors;
+    std::vector<Leg> legs;
+    Index root = 0;
+    bool touched = false;
+    int splits = 0;
+  };
+  enum class Outcome { free, longer, stuck };
+  struct Offer {
+    double distance;
+    Index node, chain;
+    friend bool operator<(const Offer& a, const Offer& b) {
+      if (a.distance != b.distance) return a.distance > b.distance;
+      return a.node != b.node ? a.node > b.node : a.chain > b.chain;
+    }
+  };
+  using Spot = std::array<double, 2>;
+
+  void expand(Index node, const Label& label);
+  void prepare(Index node, const Label& label);
+  Outcome offer(Index from, const Label& label, Index to, Index door);
+  [[nodiscard]] double bound(Index from, const Label& label, Index to, Index door) const;
+  void offer_corner(Index from, const Label& label, Index to);
+  Outcome attempt(Index from, const Label& label, Index to, Index door);
+  Outcome settle(Attempt& a, Index to, double least);
+  Outcome improve(Attempt& a, Index to, Outcome outcome);
+
+  bool collapse(Attempt& a, std::size_t leg, bool& useless);
+  bool rearrange(Attempt& a, Index to, bool& useless);
+  bool leave_patch(Attempt& a, std::size_t i);
+  bool lift_off_row(Attempt& a, std::size_t i);
+  bool lift_off_corner(Attempt& a, std::size_t i);
+  bool drop_lifted(Attempt& a, std::size_t i, Index to);
+  [[nodiscard]] bool gains(const Point& in, const Point& out, std::span<const Index> doors,
+                           Index before, const Point& at, Index row);
+  std::size_t blocked(const Attempt& a, Index to);
+  bool insert_touched(Attempt& a, std::size_t leg, Index to);
+  void replace(Attempt& a, std::size_t begin, std::size_t end, std::span<const Index> doors,
+               const Point& at);
+  void append(Attempt& a, Index door, const Point& at);
+
+  [[nodiscard]] Index medium_of_leg(const Attempt& a, std::size_t leg) const {
+    return leg == 0 ? roots_[a.root].medium : space_->medium_behind(a.doors[leg - 1]);
+  }
+  [[nodiscard]] double slowness(Index medium) const { return space_->media()[medium].slowness; }
+  [[nodiscard]] Index place_of(const Attempt& a, std::size_t i) const {
+    return space_->place_of(a.doors[i]);
+  }
+  [[nodiscard]] double offset(const Attempt& a) const {
+    return sources_[roots_[a.root].source].offset;
+  }
+  [[nodiscard]] Point end_of_leg(const Attempt& a, std::size_t corner, std::size_t other,
+                                 Index to) const;
+  [[nodiscard]] bool is_edge(const Attempt& a) const;
+  [[nodiscard]] double limit(Index node, const Point& last) const;
+  [[nodiscard]] Point last_leg(const Attempt& a) const {
+    return unit(a.string.to - a.string.corner(a.doors.size()));
+  }
+  void accept(const Attempt& a, Index to);
+  void take(Index node, const Label& label);
+  const Place* place(Index number);
+
+  const MediaSpace* space_;
+  std::span<const MediaSource> sources_;
+  std::vector<Root> roots_;
+  Chains chains_;
+  std::vector<Spot> hints_;
+  std::vector<VertexLabels> nodes_;
+  std::vector<double> best_;   // of points
+  std::vector<double> reach_;  // of nodes: the time of their longest edge
+  std::vector<Offer> queue_;
+  std::unordered_map<Index, Place> corners_;
+  Puller puller_;
+  Attempt base_, attempt_, other_;
+  std::vector<Place> copies_;
+  Index from_ = none;
+  bool prepared_ = false;
+  double behind_ = .5;
+  Counts counts_;
+};
+
+}  // namespace plexway::strings
