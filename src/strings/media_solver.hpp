@@ -43,6 +43,12 @@ class MediaSolver {
                 touches = 0, slides = 0, lifts = 0, collapses = 0, corners = 0, stuck = 0, pairs = 0;
   };
   [[nodiscard]] const Counts& counts() const { return counts_; }
+  [[nodiscard]] std::vector<Index> doors(Index chain) const {
+    std::vector<Index> doors;
+    chains_.places(chain, doors);
+    return doors;
+  }
+  [[nodiscard]] Index medium_of_root(Index chain) const { return roots_[chains_.source(chain)].medium; }
   [[nodiscard]] const VertexLabels& labels(Index node) const { return nodes_[node]; }
 
  private:

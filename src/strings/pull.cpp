@@ -244,12 +244,18 @@ void Puller::pull_by(String& string) {
   // once a step makes this share of a difference, it is the last.
   constexpr double last = 1e-9;
   constexpr double rounding = 1e-15;
-  constexpr int most = 24;
+  const int most = string.slowness.empty() ? 24 : 60;
+  const double shortest = string.slowness.empty() ? 1 : .01;
   for (int round = 0; round < most; ++round) {
     differentiate<D>(string);
     const double slope = solve<D>(string);
     const bool ends = -slope < last * string.length;
-    if (step<D>(string, 1, ends ? -rounding * string.length : -1e-4 * slope)) {
+    bool shorter = false;
+    for (double share = 1; !shorter && share >= shortest; share /= 3) {
+      shorter = step<D>(string, share, ends ? -rounding * string.length : -1e-4 * share * slope);
+      if (ends) break;
+    }
+    if (shorter) {
       if (ends) return;
       continue;
     }
