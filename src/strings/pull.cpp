@@ -142,7 +142,8 @@ double Puller::solve(const String& string) {
   move_.resize(D * n);
   const auto held = [&](std::size_t i, std::size_t a) {
     const Place& p = *string.places[i];
-    if (a == 1) return !p.is_plane;
+    if (a == 1) return !p.is_plane || (i == first && at_start_) || (i + 1 == n && at_end_);
+    if ((i == first && at_start_) || (i + 1 == n && at_end_)) return true;
     return p.high <= p.low || (string.at[i] <= p.low && gradient_[D * i] > 0) ||
            (string.at[i] >= p.high && gradient_[D * i] < 0);
   };
@@ -238,24 +239,67 @@ void Puller::pull(String& string) {
   pull_by<1>(string);
 }
 
+// A leg that lies in the place at its free end has a kink where it has no length. Is the string held
+// there, and would it rather leave?
+bool Puller::is_at_kink(const String& string, bool start, bool& leaves) const {
+  constexpr double none = 1e-11;
+  const std::size_t n = string.bends(), leg = start ? string.held : n,
+                    next = start ? leg + 1 : n - 1;
+  if (lengths_[leg] > none) return false;
+  const Place& place = *string.places[start ? leg : n - 1];
+  const double pulls = string.slow(next) *
+                       std::hypot(dot(legs_[next], place.along), dot(legs_[next], place.wide));
+  if (pulls <= string.slow(leg)) return true;
+  leaves = true;
+  return false;
+}
+
+// The share of a move at which a leg to the free end of which is in its place passes its kink.
+double Puller::before_kink(const String& string, bool start) const {
+  const std::size_t n = string.bends(), i = start ? string.held : n - 1, d = move_.size() / n;
+  const Place& place = *string.places[i];
+  const Point move = move_[d * i] * place.along + (d > 1 ? move_[d * i + 1] : 0) * place.wide;
+  const Point leg = start ? string.points[i] - string.corner(i) : string.points[i] - string.to;
+  const double toward = -dot(leg, move), square = dot(move, move);
+  constexpr double flat = 1e-12;
+  if (toward <= 0 || norm(across(place, start ? string.corner(i) : string.to)) > flat) return 1;
+  return std::min(1., toward / square);
+}
+
 template <std::size_t D>
 void Puller::pull_by(String& string) {
   // Newton's error is squared by each step, and the length's is the square of that of the bends:
   // once a step makes this share of a difference, it is the last.
   constexpr double last = 1e-9;
   constexpr double rounding = 1e-15;
-  const int most = string.slowness.empty() ? 24 : 60;
-  const double shortest = string.slowness.empty() ? 1 : .01;
+  const bool weighted = !string.slowness.empty();
+  const int most = weighted ? 60 : 24;
+  const double shortest = weighted ? 1e-5 : 1;
+  at_start_ = at_end_ = false;
   for (int round = 0; round < most; ++round) {
+    rounds = round;
+    double share = 1;
+    if (weighted) {
+      bool leaves = false;
+      at_start_ = is_at_kink(string, true, leaves);
+      at_end_ = is_at_kink(string, false, leaves);
+      if (leaves) {
+        pull_each(string);
+        string.length = measure(string);
+      }
+    }
     differentiate<D>(string);
     const double slope = solve<D>(string);
     const bool ends = -slope < last * string.length;
+    if (weighted) share = std::min(before_kink(string, true), before_kink(string, false));
+    const bool kinked = share < 1;
+    const double least = shortest * share;
     bool shorter = false;
-    for (double share = 1; !shorter && share >= shortest; share /= 3) {
+    for (; !shorter && share >= least; share /= 3) {
       shorter = step<D>(string, share, ends ? -rounding * string.length : -1e-4 * share * slope);
       if (ends) break;
     }
-    if (shorter) {
+    if (shorter && !kinked) {
       if (ends) return;
       continue;
     }
@@ -263,7 +307,7 @@ void Puller::pull_by(String& string) {
     const double before = string.length;
     pull_each(string);
     string.length = measure(string);
-    if (!(string.length < before * (1 - 10 * rounding))) return;
+    if (!shorter && !(string.length < before * (1 - 10 * rounding))) return;
   }
 }
 

@@ -44,10 +44,13 @@ struct String {
 class Puller {
  public:
   void pull(String& string);
+  int rounds = 0;
 
  private:
   void pull_each(String& string) const;
   double measure(String& string);  // points, legs, length
+  bool is_at_kink(const String& string, bool start, bool& leaves) const;
+  double before_kink(const String& string, bool start) const;
   template <std::size_t D>
   void pull_by(String& string);
   template <std::size_t D>
@@ -57,6 +60,7 @@ class Puller {
   template <std::size_t D>
   bool step(String& string, double share, double least);
 
+  bool at_start_ = false, at_end_ = false;  // the first, the last of the places is at an end
   std::vector<Point> legs_;      // unit vectors
   std::vector<double> lengths_;  // of legs
   std::vector<double> gradient_, diagonal_, beside_, move_, kept_, kept_wide_;
