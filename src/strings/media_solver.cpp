@@ -12,6 +12,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double still = 1e-9;   // an end that moved less did not move
 constexpr double outside = 1e-6; // of a patch
 constexpr double gain = 1e-7;    // slopes that count, of the slowness
+constexpr double other_side = 2;  // strings that end alike may have come through other media
 constexpr double brief = 1e-5;   // legs that may have no length
 
 }  // namespace
@@ -72,7 +73,7 @@ void MediaSolver::solve(std::span<const MediaSource> sources) {
 }
 
 void MediaSolver::take(Index node, const Label& label) {
-  if (!nodes_[node].take(label, behind_ * slowness(space_->medium_of(node)))) return;
+  if (!nodes_[node].take(label, behind_ * slowness(space_->medium_of(node)), other_side)) return;
   ++counts_.labels;
   double& best = best_[space_->point_of(node)];
   best = std::min(best, label.distance);
@@ -81,7 +82,7 @@ void MediaSolver::take(Index node, const Label& label) {
 }
 
 double MediaSolver::limit(Index node, const Point& last) const {
-  return std::min(nodes_[node].limit(behind_ * slowness(space_->medium_of(node)), last),
+  return std::min(nodes_[node].limit(behind_ * slowness(space_->medium_of(node)), last, other_side),
                   best_[space_->point_of(node)] + reach_[node]);
 }
 
