@@ -12,7 +12,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double still = 1e-9;   // an end that moved less did not move
 constexpr double outside = 1e-6; // of a patch
 constexpr double gain = 1e-7;    // slopes that count, of the slowness
-constexpr double other_side = 2;  // strings that end alike may have come through other media
+constexpr double other_side = 1 - 1e-10;  // cosine: others may have come through other media
 constexpr double brief = 1e-5;   // legs that may have no length
 
 }  // namespace
@@ -604,7 +604,7 @@ MediaSolver::Outcome MediaSolver::settle(Attempt& a, Index to, double least) {
     if (useless) return Outcome::longer;
     const double slack = string.held > 0 ? 1e-3 : 0;  // what is held may gain a little
     const double length = offset(a) + string.length - slack;
-    if (!(string.length < least) || !(length < limit(to, last_leg(a)))) return Outcome::longer;
+    if (!(string.length < least) || !(length * (1 + 1e-12) < limit(to, last_leg(a)))) return Outcome::longer;
     const std::size_t leg = blocked(a, to);
     if (leg < a.legs.size()) {
       if (!insert_touched(a, leg, to)) break;
