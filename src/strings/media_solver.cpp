@@ -326,6 +326,7 @@ bool MediaSolver::gains(const Point& in, const Point& out, std::span<const Index
     s.slowness.push_back(slowness(space_->medium_behind(doors[i])));
   }
   puller_.pull(s);
+  apart_ = s.points;
   const double now = s.slowness.front() + s.slowness.back();
   if (!(s.length < now * (1 - 1e-9))) return false;
   for (std::size_t i = 0; i < doors.size(); ++i) {
@@ -341,6 +342,20 @@ bool MediaSolver::gains(const Point& in, const Point& out, std::span<const Index
       return false;
   }
   return true;
+}
+
+// Places that are all at a point go where `gains` found them: there the length has a kink, which no
+// pull leaves by itself.
+void MediaSolver::move_apart(Attempt& a, std::size_t begin, const Point& at) {
+  String& s = a.string;
+  const std::size_t end = begin + apart_.size();
+  const double scale = .5 * std::min({1., norm(at - s.corner(begin)), norm(s.corner(end + 1) - at)});
+  for (std::size_t i = begin; i < end; ++i) {
+    const Place& p = *s.places[i];
+    const Point d = at + scale * (apart_[i - begin] - at) - p.origin;
+    s.at[i] = std::clamp(dot(d, p.along), p.low, p.high);
+    s.wide[i] = dot(d, p.wide);
+  }
 }
 
 // A leg without length: is the string as short without it? Then it is dropped.
@@ -368,7 +383,10 @@ bool MediaSolver::collapse(Attempt& a, std::size_t leg, bool& useless) {
   ++counts_.collapses;
   const std::array<Index, 2> both = {a.doors[i], a.doors[leg]};
   if (before == after) {
-    if (gains(in, out, both, before, at, none) && a.splits++ < 3) return false;
+    if (gains(in, out, both, before, at, none) && a.splits++ < 3) {
+      move_apart(a, i, at);
+      return true;
+    }
     replace(a, i, leg + 1, {}, at);
     return true;
   }
@@ -385,7 +403,10 @@ bool MediaSolver::collapse(Attempt& a, std::size_t leg, bool& useless) {
     if (door != none && space_->door(p, before) != none) found.push_back(door);
   };
   if (q[0] == q[1]) {
-    if (gains(in, out, both, before, at, none) && a.splits++ < 3) return false;
+    if (gains(in, out, both, before, at, none) && a.splits++ < 3) {
+      move_apart(a, i, at);
+      return true;
+    }
     consider(q[0]);
   }
   for (const Index p : q) {
@@ -626,6 +647,7 @@ MediaSolver::Outcome MediaSolver::improve(Attempt& a, Index to, Outcome outcome)
     other_ = a;
     other_.splits = 0;
     replace(other_, i, i + 1, doors, a.string.points[i]);
+    if (doors.size() > 1) move_apart(other_, i, a.string.points[i]);
     const double less = outcome == Outcome::free ? a.string.length * (1 - 1e-12) : infinity;
     if (settle(other_, to, less) != Outcome::free) return false;
     std::swap(a, other_);

@@ -96,6 +96,7 @@ class MediaSolver {
   bool drop_lifted(Attempt& a, std::size_t i, Index to);
   [[nodiscard]] bool gains(const Point& in, const Point& out, std::span<const Index> doors,
                            Index before, const Point& at, Index row);
+  void move_apart(Attempt& a, std::size_t begin, const Point& at);
   std::size_t blocked(const Attempt& a, Index to);
   bool insert_touched(Attempt& a, std::size_t leg, Index to);
   void replace(Attempt& a, std::size_t begin, std::size_t end, std::span<const Index> doors,
@@ -135,7 +136,8 @@ class MediaSolver {
   std::unordered_map<Index, Place> corners_;
   Puller puller_;
   Attempt base_, attempt_, other_;
-  std::vector<Place> copies_;
+  std::vector<Place> copies_;   // of a problem at one point
+  std::vector<Point> apart_;    // and where its places are
   Index from_ = none;
   bool prepared_ = false;
   double behind_ = .5;
