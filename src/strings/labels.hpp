@@ -25,8 +25,8 @@ struct VertexLabels {
   static constexpr std::size_t most = 2;
   static constexpr std::size_t remembered = 6;
   static constexpr double same_side = .99;  ///< cosine between the last legs of two strings
-  std::array<Label, most> labels;       ///< by their distance
-  std::array<Index, remembered> tried;  ///< chains of late
+  std::array<Label, most> labels;           ///< by their distance
+  std::array<Index, remembered> tried;      ///< chains of late
   Index next = 0;
 
   VertexLabels() { tried.fill(none); }

@@ -9,11 +9,11 @@ namespace {
 
 using Kind = MediaSpace::Kind;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double still = 1e-9;   // an end that moved less did not move
-constexpr double outside = 1e-6; // of a patch
-constexpr double gain = 1e-7;    // slopes that count, of the slowness
+constexpr double still = 1e-9;            // an end that moved less did not move
+constexpr double outside = 1e-6;          // of a patch
+constexpr double gain = 1e-7;             // slopes that count, of the slowness
 constexpr double other_side = 1 - 1e-10;  // cosine: others may have come through other media
-constexpr double brief = 1e-5;   // legs that may have no length
+constexpr double brief = 1e-5;            // legs that may have no length
 
 }  // namespace
 
@@ -174,7 +174,8 @@ double MediaSolver::bound(Index from, const Label& label, Index to, Index door) 
   if (door == none) return label.distance + dot(slope, way);
   const Place& q = space_->place(space_->place_of(door));
   double along = dot(slope, q.along), wide = dot(slope, q.wide);
-  const double s = slowness(space_->medium_behind(door)), rest = s * s - along * along - wide * wide;
+  const double s = slowness(space_->medium_behind(door)),
+               rest = s * s - along * along - wide * wide;
   if (rest <= 0) return -infinity;
   const double wa = dot(way, q.along), ww = dot(way, q.wide);
   const Point off = way - wa * q.along - ww * q.wide;
@@ -349,7 +350,8 @@ bool MediaSolver::gains(const Point& in, const Point& out, std::span<const Index
 void MediaSolver::move_apart(Attempt& a, std::size_t begin, const Point& at) {
   String& s = a.string;
   const std::size_t end = begin + apart_.size();
-  const double scale = .5 * std::min({1., norm(at - s.corner(begin)), norm(s.corner(end + 1) - at)});
+  const double scale =
+      .5 * std::min({1., norm(at - s.corner(begin)), norm(s.corner(end + 1) - at)});
   for (std::size_t i = begin; i < end; ++i) {
     const Place& p = *s.places[i];
     const Point d = at + scale * (apart_[i - begin] - at) - p.origin;
@@ -593,7 +595,8 @@ bool MediaSolver::insert_touched(Attempt& a, std::size_t n, Index to) {
     if (space_->kind(p) != Kind::bend || p < medium.first_bend) return none;
     return p - medium.first_bend;
   };
-  const std::array<Index, 2> known = {n > 0 ? own(n - 1) : none, n < a.doors.size() ? own(n) : none};
+  const std::array<Index, 2> known = {n > 0 ? own(n - 1) : none,
+                                      n < a.doors.size() ? own(n) : none};
   const bool backward = norm(leg.from - from) > norm(leg.to - end);
   const auto touch = backward ? medium.solid->sight().touch(end, from, leg.from, known)
                               : medium.solid->sight().touch(from, end, leg.to, known);
@@ -625,7 +628,8 @@ MediaSolver::Outcome MediaSolver::settle(Attempt& a, Index to, double least) {
     if (useless) return Outcome::longer;
     const double slack = string.held > 0 ? 1e-3 : 0;  // what is held may gain a little
     const double length = offset(a) + string.length - slack;
-    if (!(string.length < least) || !(length * (1 + 1e-12) < limit(to, last_leg(a)))) return Outcome::longer;
+    if (!(string.length < least) || !(length * (1 + 1e-12) < limit(to, last_leg(a))))
+      return Outcome::longer;
     const std::size_t leg = blocked(a, to);
     if (leg < a.legs.size()) {
       if (!insert_touched(a, leg, to)) break;
@@ -684,8 +688,7 @@ MediaSolver::Outcome MediaSolver::improve(Attempt& a, Index to, Outcome outcome)
             if (m == before || m == after || space_->door(two, m) == none) continue;
             ++counts_.pairs;
             const std::array<Index, 2> doors = {d, last};
-            if (gains(in, out, doors, before, at, kind == Kind::row ? q : none) &&
-                tries(i, doors))
+            if (gains(in, out, doors, before, at, kind == Kind::row ? q : none) && tries(i, doors))
               return true;
           }
         }

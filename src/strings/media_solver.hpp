@@ -13,11 +13,12 @@
 
 /// Shortest paths through several media, by strings.
 ///
-/// A string is a source and a chain of doors: places where it bends or goes into another medium, and
-/// the medium behind. In the order of their distance nodes offer theirs to those that share an edge,
-/// through each place of the point as well. It is pulled taut; where it leaves a patch it slides on to
-/// the row there, where it wants back in it is let, what it lifts off is dropped, and where a leg
-/// leaves its medium the bend that it touches first is put in. All distances are lengths of paths.
+/// A string is a source and a chain of doors: places where it bends or goes into another medium,
+/// and the medium behind. In the order of their distance nodes offer theirs to those that share an
+/// edge, through each place of the point as well. It is pulled taut; where it leaves a patch it
+/// slides on to the row there, where it wants back in it is let, what it lifts off is dropped, and
+/// where a leg leaves its medium the bend that it touches first is put in. All distances are
+/// lengths of paths.
 namespace plexway::strings {
 
 struct MediaSource {
@@ -40,7 +41,8 @@ class MediaSolver {
 
   struct Counts {
     std::size_t expansions = 0, labels = 0, offers = 0, through = 0, pulls = 0, legs = 0,
-                touches = 0, slides = 0, lifts = 0, collapses = 0, corners = 0, stuck = 0, pairs = 0;
+                touches = 0, slides = 0, lifts = 0, collapses = 0, corners = 0, stuck = 0,
+                pairs = 0;
   };
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] std::vector<Index> doors(Index chain) const {
@@ -48,7 +50,9 @@ class MediaSolver {
     chains_.places(chain, doors);
     return doors;
   }
-  [[nodiscard]] Index medium_of_root(Index chain) const { return roots_[chains_.source(chain)].medium; }
+  [[nodiscard]] Index medium_of_root(Index chain) const {
+    return roots_[chains_.source(chain)].medium;
+  }
   [[nodiscard]] const VertexLabels& labels(Index node) const { return nodes_[node]; }
 
  private:
@@ -136,8 +140,8 @@ class MediaSolver {
   std::unordered_map<Index, Place> corners_;
   Puller puller_;
   Attempt base_, attempt_, other_;
-  std::vector<Place> copies_;   // of a problem at one point
-  std::vector<Point> apart_;    // and where its places are
+  std::vector<Place> copies_;  // of a problem at one point
+  std::vector<Point> apart_;   // and where its places are
   Index from_ = none;
   bool prepared_ = false;
   double behind_ = .5;

@@ -168,7 +168,8 @@ struct MediaSpace::Builder {
         }
       }
       const TetMesh<double> mesh(places, own, 1);
-      Medium medium{parts.slow_tets[tets[0]], nullptr, std::vector<Index>(used.size()), 0, 0, {}, {}};
+      Medium medium{
+          parts.slow_tets[tets[0]], nullptr, std::vector<Index>(used.size()), 0, 0, {}, {}};
       std::vector<Point> inside(used.size());
       for (Index v = 0; v < used.size(); ++v) {
         medium.points[mesh.inside_vertex(v)] = used[v];
@@ -455,8 +456,7 @@ struct MediaSpace::Builder {
     const auto inward = [&](const Point& in, const Point& off) {
       return strings::unit(off - dot(off, in) * in);
     };
-    return {{inward(side[0], side[1]), inward(side[1], side[0])},
-            strings::unit(side[0] + side[1])};
+    return {{inward(side[0], side[1]), inward(side[1], side[0])}, strings::unit(side[0] + side[1])};
   }
 };
 
@@ -469,8 +469,7 @@ bool MediaSpace::holds(const Patch& patch, double t, double u, double near) cons
   bool inside = false;
   for (const auto& [at, au, bt, bu] : patch.sides) {
     const double wt = bt - at, wu = bu - au;
-    const double share =
-        std::clamp(((t - at) * wt + (u - au) * wu) / (wt * wt + wu * wu), 0., 1.);
+    const double share = std::clamp(((t - at) * wt + (u - au) * wu) / (wt * wt + wu * wu), 0., 1.);
     const double dt = t - at - share * wt, du = u - au - share * wu;
     if (dt * dt + du * du <= near * near) return true;
     if ((au > u) != (bu > u) && t < at + (u - au) / wu * wt) inside = !inside;

@@ -25,9 +25,10 @@ struct Parts {
 /// one plane, edges of one speed in one line. Each vertex of a medium is a *node*, so that points
 /// where media meet have several.
 ///
-/// Strings go from one medium to another at places: *patches* of a plane between two solids, or with
-/// a sheet; *rows* of edges where patches end, or wires run; *corners*, which are points. Besides, they
-/// bend inside a solid at its own rows. A *door* is a place and the medium that follows.
+/// Strings go from one medium to another at places: *patches* of a plane between two solids, or
+/// with a sheet; *rows* of edges where patches end, or wires run; *corners*, which are points.
+/// Besides, they bend inside a solid at its own rows. A *door* is a place and the medium that
+/// follows.
 class MediaSpace {
  public:
   explicit MediaSpace(const Parts& parts);
@@ -42,9 +43,9 @@ class MediaSpace {
   enum class Kind { bend, patch, row, corner };
   /// A part of a plane.
   struct Patch {
-    Point normal;                   ///< to the side `above`
-    Index above, below;             ///< media; none: nothing, or no solid
-    std::vector<Index> rows;        ///< around it; none: where no string can end
+    Point normal;                              ///< to the side `above`
+    Index above, below;                        ///< media; none: nothing, or no solid
+    std::vector<Index> rows;                   ///< around it; none: where no string can end
     std::vector<std::array<double, 4>> sides;  ///< from (t, u) to (t, u), one a row
   };
 
@@ -77,8 +78,8 @@ class MediaSpace {
   }
 
   [[nodiscard]] Kind kind(Index place) const {
-    return place < first_patch_ ? Kind::bend
-           : place < first_row_ ? Kind::patch
+    return place < first_patch_     ? Kind::bend
+           : place < first_row_     ? Kind::patch
            : place < places_.size() ? Kind::row
                                     : Kind::corner;
   }

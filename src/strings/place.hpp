@@ -28,8 +28,8 @@ struct Place {
   double angle;         ///< of solid around it, from the first plane to the second
   Index vertex = none;  ///< of a single point
   Index first_wedge = 0, last_wedge = 0;  ///< where tetrahedra only touch: Boundary::wedges
-  Point wide = {0, 0, 0};  ///< of a plane: square to `along`, unit
-  bool is_plane = false;   ///< points origin + t along + u wide, all t and u
+  Point wide = {0, 0, 0};                 ///< of a plane: square to `along`, unit
+  bool is_plane = false;                  ///< points origin + t along + u wide, all t and u
 
   /// Strings that come to it never lift off: a vertex, or an edge where tetrahedra only touch.
   [[nodiscard]] bool holds() const { return angle == 0; }

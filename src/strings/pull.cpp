@@ -15,8 +15,8 @@ Point across(const Place& place, const Point& p) {
   return d - dot(d, place.along) * place.along - dot(d, place.wide) * place.wide;
 }
 
-// Where between 0 and 1 a string crosses from one slowness to another, `near` off a line on one side
-// and `far` on the other, `way` apart along it. The slope of its length ascends.
+// Where between 0 and 1 a string crosses from one slowness to another, `near` off a line on one
+// side and `far` on the other, `way` apart along it. The slope of its length ascends.
 double crossing(double near, double far, double way, double before, double after) {
   if (before == after) return near / (near + far);
   const auto slope = [&](double x) {
@@ -35,7 +35,8 @@ double crossing(double near, double far, double way, double before, double after
     const double s = slope(x);
     (s > 0 ? high : low) = x;
     const double a = std::hypot(near, x * way), b = std::hypot(far, (1 - x) * way);
-    const double bend = before * way * near * near / (a * a * a) + after * way * far * far / (b * b * b);
+    const double bend =
+        before * way * near * near / (a * a * a) + after * way * far * far / (b * b * b);
     double next = bend > 0 ? x - s / bend : -1;
     if (!(next > low && next < high)) next = (low + high) / 2;
     if (std::abs(next - x) < 1e-15) return next;
@@ -71,8 +72,8 @@ void Puller::pull_each(String& string) const {
       string.at[i] = std::clamp(dot(a, place.along) + x * along, place.low, place.high);
       if (place.is_plane) string.wide[i] = dot(a, place.wide) + x * wide;
     }
-    string.points[i] = place.is_plane ? place.at(string.at[i], string.wide[i])
-                                      : place.at(string.at[i]);
+    string.points[i] =
+        place.is_plane ? place.at(string.at[i], string.wide[i]) : place.at(string.at[i]);
   }
 }
 
@@ -86,8 +87,8 @@ double Puller::measure(String& string) {
   for (std::size_t i = string.held; i <= n; ++i) {
     if (i < n) {
       const Place& place = *string.places[i];
-      string.points[i] = place.is_plane ? place.at(string.at[i], string.wide[i])
-                                        : place.at(string.at[i]);
+      string.points[i] =
+          place.is_plane ? place.at(string.at[i], string.wide[i]) : place.at(string.at[i]);
     }
     const Point& next = i < n ? string.points[i] : string.to;
     const Point leg = next - last;
@@ -129,7 +130,8 @@ void Puller::differentiate(const String& string) {
       for (std::size_t a = 0; a < D; ++a)
         for (std::size_t b = 0; b < D; ++b) {
           const Point& e = axis(i + 1, b);
-          beside_[D * (D * i + a) + b] = -(dot(axis(i, a), e) - out[a] * dot(e, legs_[i + 1])) * next;
+          beside_[D * (D * i + a) + b] =
+              -(dot(axis(i, a), e) - out[a] * dot(e, legs_[i + 1])) * next;
         }
     bent = next;
   }
@@ -208,8 +210,8 @@ bool Puller::step(String& string, double share, double least) {
   kept_ = string.at;
   if (D == 2) kept_wide_ = string.wide;
   for (std::size_t i = string.held; i < kept_.size(); ++i) {
-    string.at[i] = std::clamp(kept_[i] + share * move_[D * i], string.places[i]->low,
-                              string.places[i]->high);
+    string.at[i] =
+        std::clamp(kept_[i] + share * move_[D * i], string.places[i]->low, string.places[i]->high);
     if (D == 2) string.wide[i] += share * move_[D * i + D - 1];
   }
   const double length = measure(string);
@@ -239,16 +241,16 @@ void Puller::pull(String& string) {
   pull_by<1>(string);
 }
 
-// A leg that lies in the place at its free end has a kink where it has no length. Is the string held
-// there, and would it rather leave?
+// A leg that lies in the place at its free end has a kink where it has no length. Is the string
+// held there, and would it rather leave?
 bool Puller::is_at_kink(const String& string, bool start, bool& leaves) const {
   constexpr double none = 1e-11;
   const std::size_t n = string.bends(), leg = start ? string.held : n,
                     next = start ? leg + 1 : n - 1;
   if (lengths_[leg] > none) return false;
   const Place& place = *string.places[start ? leg : n - 1];
-  const double pulls = string.slow(next) *
-                       std::hypot(dot(legs_[next], place.along), dot(legs_[next], place.wide));
+  const double pulls =
+      string.slow(next) * std::hypot(dot(legs_[next], place.along), dot(legs_[next], place.wide));
   if (pulls <= string.slow(leg)) return true;
   leaves = true;
   return false;
@@ -277,7 +279,6 @@ void Puller::pull_by(String& string) {
   const double shortest = weighted ? 1e-5 : 1;
   at_start_ = at_end_ = false;
   for (int round = 0; round < most; ++round) {
-    rounds = round;
     double share = 1;
     if (weighted) {
       bool leaves = false;
@@ -307,6 +308,12 @@ void Puller::pull_by(String& string) {
     const double before = string.length;
     pull_each(string);
     string.length = measure(string);
+    // Two bends that meet are for who made the string to part or to join.
+    if (weighted) {
+      constexpr double together = 1e-6;
+      for (std::size_t i = string.held + 1; i < string.bends(); ++i)
+        if (lengths_[i] < together) return;
+    }
     if (!shorter && !(string.length < before * (1 - 10 * rounding))) return;
   }
 }

@@ -12,8 +12,8 @@ namespace plexway::strings {
 struct String {
   Point from, to;
   std::vector<const Place*> places;
-  std::vector<double> at;        ///< how far along each place: where a pull starts, and what it finds
-  std::vector<double> wide;      ///< the same across planes; empty: there are none
+  std::vector<double> at;    ///< how far along each place: where a pull starts, and what it finds
+  std::vector<double> wide;  ///< the same across planes; empty: there are none
   std::vector<double> slowness;  ///< of legs; empty: all have 1
   std::vector<Point> points;     ///< there
   double length = 0;             ///< each leg times its slowness
@@ -25,9 +25,7 @@ struct String {
   [[nodiscard]] const Point& corner(std::size_t n) const {
     return n == 0 ? from : n > bends() ? to : points[n - 1];
   }
-  [[nodiscard]] double slow(std::size_t leg) const {
-    return slowness.empty() ? 1 : slowness[leg];
-  }
+  [[nodiscard]] double slow(std::size_t leg) const { return slowness.empty() ? 1 : slowness[leg]; }
   /// Of a string that was pulled, the first places shall stay as they are.
   void hold(std::size_t count) {
     held = count;
@@ -44,7 +42,6 @@ struct String {
 class Puller {
  public:
   void pull(String& string);
-  int rounds = 0;
 
  private:
   void pull_each(String& string) const;
@@ -61,8 +58,8 @@ class Puller {
   bool step(String& string, double share, double least);
 
   bool at_start_ = false, at_end_ = false;  // the first, the last of the places is at an end
-  std::vector<Point> legs_;      // unit vectors
-  std::vector<double> lengths_;  // of legs
+  std::vector<Point> legs_;                 // unit vectors
+  std::vector<double> lengths_;             // of legs
   std::vector<double> gradient_, diagonal_, beside_, move_, kept_, kept_wide_;
 };
 
