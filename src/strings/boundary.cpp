@@ -103,10 +103,10 @@ class Finder {
   // Where tetrahedra only touch in an edge strings may pass through it from one to the other.
   void hold_pinched() {
     for (const auto& e : mesh_.pinched_edges()) {
-      if (extend_row(e.vertex)) continue;
       const auto number = static_cast<Index>(boundary_.places.size());
       const Point &a = points_[e.vertex[0]], along = points_[e.vertex[1]] - a, zero = {0, 0, 0};
-      Place place = {a, unit(along), 0, norm(along), zero, zero, zero, 0};
+      Place place = {a, unit(along), 0, 0, zero, zero, zero, 0};
+      for (const Index v : e.vertex) extend(place, v);
       place.first_wedge = static_cast<Index>(boundary_.wedges.size());
       for (Index i = e.begin; i < e.end; ++i)
         boundary_.wedges.push_back(wedge_of(mesh_.pinched_edge_tets()[i], e.vertex));
@@ -115,24 +115,10 @@ class Finder {
       for (const Index v : e.vertex) boundary_.rows_at.push_back({v, number});
     }
   }
-  // Goes such an edge on where another one ends?
-  bool extend_row(const Index (&edge)[2]) {
-    const auto& rows_at = boundary_.rows_at;
-    for (std::size_t i = 0; i < rows_at.size(); ++i)
-      for (const Index n : {0u, 1u}) {
-        const auto [v, number] = rows_at[i];
-        Place& row = boundary_.places[number];
-        if (v != edge[n]) continue;
-        const Point on = unit(points_[edge[1 - n]] - points_[v]);
-        const double t = dot(points_[v] - row.origin, row.along);
-        if (!alike(on, t > row.low ? row.along : -1. * row.along)) continue;
-        const double end = dot(points_[edge[1 - n]] - row.origin, row.along);
-        row.low = std::min(row.low, end);
-        row.high = std::max(row.high, end);
-        boundary_.rows_at.push_back({edge[1 - n], number});
-        return true;
-      }
-    return false;
+  void extend(Place& row, Index vertex) const {
+    const double t = dot(points_[vertex] - row.origin, row.along);
+    if (t <= row.low) row.low = t, row.end[0] = vertex;
+    if (t >= row.high) row.high = t, row.end[1] = vertex;
   }
   [[nodiscard]] Boundary::Wedge wedge_of(Index t, const Index (&edge)[2]) const {
     const Point along = unit(points_[edge[1]] - points_[edge[0]]);
@@ -189,9 +175,7 @@ class Finder {
       Place& row = boundary_.places[place[first]];
       for (const Index v : bends_[e].end) {
         boundary_.rows_at.push_back({v, place[first]});
-        const double t = dot(points_[v] - row.origin, row.along);
-        row.low = std::min(row.low, t);
-        row.high = std::max(row.high, t);
+        extend(row, v);
       }
       Face& face = boundary_.faces[bends_[e].face];
       Face& other = boundary_.faces[face.across[bends_[e].edge]];

@@ -27,6 +27,7 @@ struct Place {
   Point floor, normal;  ///< across it: within the first plane, and square to that into the solid
   double angle;         ///< of solid around it, from the first plane to the second
   Index vertex = none;  ///< of a single point
+  Index end[2] = {none, none};            ///< vertices at `low` and `high`
   Index first_wedge = 0, last_wedge = 0;  ///< where tetrahedra only touch: Boundary::wedges
   Point wide = {0, 0, 0};                 ///< of a plane: square to `along`, unit
   bool is_plane = false;                  ///< points origin + t along + u wide, all t and u

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace plexway::strings {
 namespace {
@@ -95,46 +96,40 @@ void Solver::offer(Index from, const Label& label, Index to) {
   // The length of a chain is convex in where it ends.
   const Point way = space_->point(to) - space_->point(from);
   if (label.distance + dot(label.last, way) >= at.limit(behind_, label.last)) return;
-  const Outcome outcome = attempt(from, label, to, none);
+  const Outcome outcome = attempt(from, label, to);
   // Where it was blocked it may come past on another side from another vertex.
   if (outcome != Outcome::stuck && !attempt_.touched) at.remember(label.chain);
   constexpr double rounding = 1e-9;
   const double direct = label.distance + norm(way),
                found = sources_[attempt_.source].offset + attempt_.string.length;
   if (outcome != Outcome::stuck && found < direct * (1 + rounding)) return;
-  // On past a bend at the vertex itself, or from there along the edge.
-  for (const auto& [vertex, row] : rows_) attempt(from, label, to, row);
-  if (direct < at.best().distance * (1 - rounding)) offer_corner(from, label, to, direct);
+  attempt_corner(from, label, to);
 }
 
-// A vertex' string, pulled to another one; with one more place at the vertex, if it says so.
-Solver::Outcome Solver::attempt(Index from, const Label& label, Index to, Index through) {
+// A vertex' string, pulled to another one.
+Solver::Outcome Solver::attempt(Index from, const Label& label, Index to) {
   ++counts_.offers;
   prepare(from, label);
   attempt_ = base_;
   attempt_.touched = false;
   attempt_.string.to = space_->point(to);
-  if (through != none) append(attempt_, through, space_->point(from));
   Outcome outcome = settle(attempt_, to, infinity);
-  if (outcome != Outcome::longer) outcome = without_held(attempt_, to, outcome);
+  if (outcome != Outcome::longer) outcome = past_corners(attempt_, to, outcome);
   if (outcome == Outcome::free) accept(attempt_, to);
   return outcome;
 }
 
-// Nothing better than straight on from the vertex itself, along the edge.
-void Solver::offer_corner(Index from, const Label& label, Index to, double length) {
+// On from the vertex itself along the edge, and what is shorter past it.
+void Solver::attempt_corner(Index from, const Label& label, Index to) {
   ++counts_.corners;
-  const Index chain = chains_.with(label.chain, static_cast<Index>(space_->places().size()) + from);
-  hints_.resize(chains_.size(), 0);
-  take(to, {length, chain, unit(space_->point(to) - space_->point(from))});
-}
-
-void Solver::append(Attempt& a, Index number, const Point& at) {
-  const Place* p = place(number);
-  a.places.push_back(number);
-  a.string.places.push_back(p);
-  a.string.at.push_back(dot(at - p->origin, p->along));
-  a.legs.push_back({at, at, false});
+  prepare(from, label);
+  attempt_ = base_;
+  attempt_.string.to = space_->point(to);
+  const Point& at = space_->point(from);
+  insert(attempt_, attempt_.places.size(), static_cast<Index>(space_->places().size()) + from, at,
+         at);
+  const Outcome outcome = settle(attempt_, to, infinity);
+  if (past_corners(attempt_, to, outcome) == Outcome::free) accept(attempt_, to);
 }
 
 const Place* Solver::place(Index number) {
@@ -225,14 +220,21 @@ bool Solver::insert_touched(Attempt& a, std::size_t n, Index to) {
   if (!touch) return false;
   a.touched = true;
   const Place* place = this->place(touch->place);
-  const Point at = place->beside(touch->at, space_->aside());
-  const auto before = static_cast<std::ptrdiff_t>(n);
-  a.legs[n] = {leg.from, at, false};
-  a.legs.insert(a.legs.begin() + before + 1, {at, leg.to, false});
-  a.places.insert(a.places.begin() + before, touch->place);
-  a.string.places.insert(a.string.places.begin() + before, place);
-  a.string.at.insert(a.string.at.begin() + before, touch->at);
+  insert(a, n, touch->place, place->at(touch->at), place->beside(touch->at, space_->aside()));
   return true;
+}
+
+// One more place, `at` or near to a point.
+void Solver::insert(Attempt& a, std::size_t n, Index number, const Point& at, const Point& beside) {
+  const Place* place = this->place(number);
+  const auto before = static_cast<std::ptrdiff_t>(n);
+  const Leg leg = a.legs[n];
+  a.legs[n] = {leg.from, beside, false};
+  a.legs.insert(a.legs.begin() + before + 1, {beside, leg.to, false});
+  a.places.insert(a.places.begin() + before, number);
+  a.string.places.insert(a.string.places.begin() + before, place);
+  a.string.at.insert(a.string.at.begin() + before, dot(at - place->origin, place->along));
+  a.string.points.insert(a.string.points.begin() + before, at);
 }
 
 // Pulled, places dropped and put in until all legs are free; no further if it is of no use, or
@@ -270,19 +272,94 @@ Solver::Outcome Solver::settle(Attempt& a, Index to, double least) {
   return Outcome::stuck;
 }
 
-// A string held at the end of a place may be shorter past it.
-Solver::Outcome Solver::without_held(Attempt& a, Index to, Outcome outcome) {
+// Where a string is held at the end of a row it may be shorter past the vertex there.
+Solver::Outcome Solver::past_corners(Attempt& a, Index to, Outcome outcome) {
+  const auto vertex_of = [&](std::size_t i) {
+    const Place& p = *a.string.places[i];
+    if (p.vertex != none) return p.vertex;
+    return a.string.at[i] < p.low + still    ? p.end[0]
+           : a.string.at[i] > p.high - still ? p.end[1]
+                                             : none;
+  };
   for (std::size_t i = a.places.size(); i-- > 0;) {
-    if (i >= a.places.size() || !is_held(a.string, i)) continue;
-    ++counts_.held;
-    other_ = a;
-    drop(other_, i, end_of_leg(a, i + 1, i, to));
-    const double less = outcome == Outcome::free ? a.string.length * (1 - 1e-12) : infinity;
-    if (settle(other_, to, less) != Outcome::free) continue;
-    std::swap(a, other_);
-    outcome = Outcome::free;
+    if (i >= a.places.size()) continue;
+    const Index corner = vertex_of(i);
+    if (corner == none) continue;
+    const auto is_there = [&](std::size_t n) {
+      return norm(a.string.points[n] - space_->point(corner)) < still;
+    };
+    std::size_t begin = i, end = i + 1;
+    while (begin > 0 && is_there(begin - 1)) --begin;
+    while (end < a.places.size() && is_there(end)) ++end;
+    // Shorter now: from the end again.
+    i = past_corner(a, to, outcome, begin, end, corner) ? a.places.size() : begin;
   }
   return outcome;
+}
+
+// The places from `begin` to `end` are all at one vertex: others there instead of them. To first
+// order the string gets shorter where the angles from one leg over the rows to the other are less
+// than pi in all.
+bool Solver::past_corner(Attempt& a, Index to, Outcome& outcome, std::size_t begin, std::size_t end,
+                         Index corner) {
+  ++counts_.held;
+  constexpr double straight = std::numbers::pi - 1e-7;
+  const Point at = space_->point(corner), in = a.string.corner(begin) - at,
+              out = a.string.corner(end + 1) - at;
+  const auto angle = [](const Point& p, const Point& q) {
+    return std::atan2(norm(cross(p, q)), dot(p, q));
+  };
+  if (angle(in, out) >= straight) return false;
+  std::array<Row, 16> rows;
+  std::size_t count = 0;
+  for (const auto& [vertex, row] : space_->rows_at(corner)) {
+    const Place& p = space_->places()[row];
+    for (const bool up : {false, true})
+      if (count < rows.size() && p.end[up ? 1 : 0] != corner)
+        rows[count++] = {row, up ? p.along : -1. * p.along, 0};
+  }
+  const double reach = std::min(norm(in), norm(out));
+  const auto tries = [&](auto... chosen) {
+    std::array<Row, sizeof...(chosen)> over = {chosen...};
+    double turned = 0;
+    Point last = in;
+    for (Row& row : over) {
+      turned += angle(last, row.along);
+      row.at = turned;
+      last = row.along;
+    }
+    const double half = (turned + angle(last, out)) / 2;
+    if (2 * half >= straight) return false;
+    // Unfolded, a straight line across the sectors.
+    for (Row& row : over) row.at = reach * std::cos(half) / std::cos(row.at - half);
+    const double least = outcome == Outcome::free ? a.string.length * (1 - 1e-12) : infinity;
+    if (!settle_past(a, to, least, begin, end, over, at)) return false;
+    std::swap(a, other_);
+    outcome = Outcome::free;
+    return true;
+  };
+  if (tries()) return true;
+  const std::span<const Row> all(rows.data(), count);
+  for (const Row& first : all)
+    if (tries(first)) return true;
+  for (const Row& first : all)
+    for (const Row& second : all)
+      if (first.place != second.place && tries(first, second)) return true;
+  return false;
+}
+
+bool Solver::settle_past(const Attempt& a, Index to, double least, std::size_t begin,
+                         std::size_t end, std::span<const Row> rows, const Point& corner) {
+  other_ = a;
+  const Point beside = end_of_leg(a, begin + 1, begin, to);
+  for (std::size_t n = end; n-- > begin;) drop(other_, n, beside);
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    const Place& p = *place(rows[n].place);
+    const Point at = corner + rows[n].at * rows[n].along;
+    insert(other_, begin + n, rows[n].place, at,
+           p.holds() ? at : p.beside(dot(at - p.origin, p.along), space_->aside()));
+  }
+  return settle(other_, to, least) == Outcome::free;
 }
 
 void Solver::accept(const Attempt& a, Index to) {

@@ -77,6 +77,12 @@ class Solver {
     Index source = 0;
     bool touched = false;  // something was put in
   };
+  /// A row of edges at a vertex, the way from there, and how far along it a string shall start.
+  struct Row {
+    Index place;
+    Point along;
+    double at;
+  };
   enum class Outcome { free, longer, stuck };
   struct Offer {
     double distance;
@@ -91,11 +97,14 @@ class Solver {
   void expand(Index vertex, const Label& label);
   void prepare(Index vertex, const Label& label);
   void offer(Index from, const Label& label, Index to);
-  Outcome attempt(Index from, const Label& label, Index to, Index through);
-  void append(Attempt& attempt, Index place, const Point& at);
-  void offer_corner(Index from, const Label& label, Index to, double length);
+  Outcome attempt(Index from, const Label& label, Index to);
+  void attempt_corner(Index from, const Label& label, Index to);
   Outcome settle(Attempt& attempt, Index to, double least);
-  Outcome without_held(Attempt& attempt, Index to, Outcome outcome);
+  Outcome past_corners(Attempt& attempt, Index to, Outcome outcome);
+  bool past_corner(Attempt& attempt, Index to, Outcome& outcome, std::size_t begin, std::size_t end,
+                   Index corner);
+  bool settle_past(const Attempt& attempt, Index to, double least, std::size_t begin,
+                   std::size_t end, std::span<const Row> rows, const Point& corner);
   static Point last_leg(const Attempt& a) {
     return unit(a.string.to - a.string.corner(a.places.size()));
   }
@@ -103,6 +112,7 @@ class Solver {
   bool drop_lifted(Attempt& attempt, Index to);
   std::size_t blocked(const Attempt& attempt, Index to);
   bool insert_touched(Attempt& attempt, std::size_t leg, Index to);
+  void insert(Attempt& attempt, std::size_t n, Index place, const Point& at, const Point& beside);
   static void drop(Attempt& attempt, std::size_t n, const Point& beside);
   Point end_of_leg(const Attempt& attempt, std::size_t corner, std::size_t other, Index to) const;
   void accept(const Attempt& attempt, Index to);
