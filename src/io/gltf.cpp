@@ -184,6 +184,7 @@ class GltfReader {
                      const std::string& name) {
     if (kind < 5120 || kind > 5126 || kind == 5124)
       fail(name + " has numbers of kind " + std::to_string(kind));
+    if (!of.contains("bufferView")) fail(name + " names no bufferView");
     const Json& view = list(json_, "bufferViews")[index(of["bufferView"], "bufferViews")];
     if (!view.is_object() || !view.contains("buffer")) fail("a bufferView names no buffer");
     const std::string_view all = buffer(index(view["buffer"], "buffers"));
@@ -226,7 +227,10 @@ class GltfReader {
     }
     if (!sparse) return found;
     const Json& other = one["sparse"];
-    if (!other.is_object() || !other.contains("indices") || !other.contains("values"))
+    const auto is_there = [&](const char* key) {
+      return other.is_object() && other.contains(key) && other[key].is_object();
+    };
+    if (!is_there("indices") || !is_there("values"))
       fail(name + " is sparse without indices and values");
     const std::uint64_t some = whole(other, "count", 0);
     const Json &where = other["indices"], &what = other["values"];
