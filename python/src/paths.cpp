@@ -13,8 +13,8 @@
 namespace plexway::python {
 namespace {
 
-// (positions or None, simplices, barycentric, length, source)
-py::tuple told(Path path) {
+// (positions, or None in a domain without, simplices, barycentric, length, source)
+py::tuple told(Path path, bool placed) {
   std::vector<std::int64_t> simplices;
   std::vector<std::array<double, 4>> barycentric;
   for (const PathPoint& point : path.points) {
@@ -22,7 +22,7 @@ py::tuple told(Path path) {
     barycentric.push_back(point.barycentric);
   }
   py::object positions = py::none();
-  if (!path.positions.empty()) positions = owned(std::move(path.positions));
+  if (placed) positions = owned(std::move(path.positions));
   return py::make_tuple(std::move(positions), owned(std::move(simplices)),
                         owned(std::move(barycentric)), path.length,
                         path.source == none ? -1 : static_cast<std::int64_t>(path.source));
@@ -90,7 +90,10 @@ py::list isolines(const Domain& domain, const py::object& distance, const py::ob
     lines = plexway::isolines(domain.any(), field, wanted);
   }
   py::list list;
-  for (Path& line : lines) list.append(told(std::move(line)));
+  for (Path& line : lines) {
+    const bool placed = !line.positions.empty();
+    list.append(told(std::move(line), placed));
+  }
   return list;
 }
 
@@ -122,7 +125,9 @@ void bind_paths(py::module_& module) {
                const py::gil_scoped_release free;
                path = f.any.trace(point, {.margin = margin});
              }
-             return told(std::move(path));
+             const bool placed = path.points.empty() ? !f.domain->shape().positions().empty()
+                                                     : !path.positions.empty();
+             return told(std::move(path), placed);
            })
       .def("at",
            [](const Field& f, const std::vector<PointSource>& points, const std::string& level) {

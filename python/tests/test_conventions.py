@@ -75,6 +75,17 @@ def test_points_far_off_are_said():
     assert np.linalg.norm(found.positions - [0.5, 0.5, 1700.0], axis=1) == pytest.approx([1700.0])
 
 
+def test_a_path_that_does_not_exist_has_no_points():
+    V = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 0, 0], [6, 0, 0], [5, 1, 0]], float)
+    parts = [[0, 1, 2], [3, 4, 5]]
+    for domain in (px.Surface(V, parts), px.Wireframe(V, [[0, 1], [1, 2], [3, 4], [4, 5]])):
+        path = domain.path(0, 4)
+        assert path.points.shape == (0, 3) and len(path) == 0 and path.length == np.inf
+        assert np.diff(path.points, axis=0).shape == (0, 3)
+    by_lengths = px.Surface(None, parts, lengths=[[1, 1, 1], [1, 1, 1]])
+    assert by_lengths.path(0, 4).points is None
+
+
 def test_what_is_out_of_range_is_an_index_error():
     V, F = meshes.grid(3)
     for source in (len(V), -1, [0, len(V)], px.Point(len(F), (1, 0, 0))):
