@@ -200,7 +200,8 @@ void solve_points(const E& executor, const MixedComplex<Real>& domain,
     if (const auto found = source_on_crack(solved, there, options))
       refuse(*found, sources[found->number], "simplex");  // as it was named
   };
-  if (const auto joined = domain.joined()) {
+  const auto joined = domain.joined();
+  if (joined) {
     std::vector<PointSource> own(sources.begin(), sources.end());
     for (PointSource& source : own)
       if (source.vertex != none)
@@ -225,7 +226,10 @@ void solve_points(const E& executor, const MixedComplex<Real>& domain,
     check_cracks(domain, sources);
     solve_joined(executor, domain, sources, options, kept, field);
   }
-  field.statistics.raised_vertices += MixedPlaces<Real>(domain).raise(sources, field);
+  // A single piece knows its own lines.
+  if ((joined ? joined->domain : domain).pieces().size() > 1)
+    field.statistics.raised_vertices +=
+        MixedPlaces<Real>(domain).raise(sources, options.radius, field);
   if (sources.size() == 1) field.label.clear();
 }
 

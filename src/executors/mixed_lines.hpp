@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <span>
 #include <utility>
 #include <variant>
@@ -28,9 +29,10 @@ class MixedPlaces {
     if (!lie_in_space()) at_.clear();
   }
 
-  /// Distances below the line from every source get its length. Returns how many were by more than
-  /// 1e-4. Cost: linear.
-  std::size_t raise(std::span<const PointSource> sources, DistanceField<Real>& field) const {
+  /// Distances below the line from every source get its length, +inf beyond the radius. Returns how
+  /// many were by more than 1e-4. Cost: linear.
+  std::size_t raise(std::span<const PointSource> sources, double radius,
+                    DistanceField<Real>& field) const {
     if (at_.empty()) return 0;
     std::vector<SourcePlace> places;
     for (const PointSource& source : sources) places.push_back({place(source), source.offset});
@@ -41,6 +43,9 @@ class MixedPlaces {
       const Real least = lines.raised(v, d, field.label.empty() ? 0 : field.label[v]);
       raised += d < least * Real(1 - 1e-4);
       d = least;
+      if (static_cast<double>(d) <= radius) continue;
+      d = std::numeric_limits<Real>::infinity();
+      if (!field.label.empty()) field.label[v] = none;
     }
     return raised;
   }

@@ -51,10 +51,10 @@ class SimplexString {
   }
   void add_bend(Index face, const Along& along) {
     const BendingFace<N>& f = domain_.faces[face];
-    node_[count_++] = {face, true, along, domain_.held(f, along), f.at(along)};
+    add({face, true, along, domain_.held(f, along), f.at(along)});
   }
   void add_point(const Point& at, const Point& sharp) {
-    node_[count_++] = {none, true, {}, at, sharp};
+    add({none, true, {}, at, sharp});
   }
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t bends() const { return count_ - 2; }
@@ -68,9 +68,12 @@ class SimplexString {
 
   /// Takes out the point before the end, which must be one that is no bend, and pulls the string
   /// taut.
-  Pulled pull(double limit) { return cut(count_ - 2) ? tighten(limit) : Pulled::stuck; }
+  Pulled pull(double limit) {
+    return count_ <= room && cut(count_ - 2) ? tighten(limit) : Pulled::stuck;
+  }
   /// Pulls it taut with all its bends.
   Pulled tighten(double limit) {
+    if (count_ > room) return Pulled::stuck;
     for (int changes = 0; changes < most_changes; ++changes) {
       if (!drop_slack()) return Pulled::stuck;
       if (bends() > 0) {
@@ -99,6 +102,12 @@ class SimplexString {
     double x, y;  // in the triangle: shares of C and of B
     Index face;
   };
+
+  /// What there is no room for is counted alone.
+  void add(const Node& node) {
+    if (count_ < room) node_[count_] = node;
+    ++count_;
+  }
 
   /// Moves the bends to their places, one after another.
   bool place(const Taut<N>& taut) {

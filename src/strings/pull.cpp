@@ -7,8 +7,6 @@
 namespace plexway::strings {
 namespace {
 
-constexpr double outward = 1e-7;  // of the gradient, at an end
-
 Point across(const Place& place, const Point& p) {
   const Point d = p - place.origin;
   return d - dot(d, place.along) * place.along;
@@ -147,16 +145,6 @@ void Puller::pull(String& string) {
     string.length = measure(string);
     if (!(string.length < before * (1 - 10 * rounding))) return;
   }
-}
-
-bool is_held(const String& string, std::size_t n) {
-  const Place& p = *string.places[n];
-  if (p.high <= p.low) return true;
-  const bool low = string.at[n] <= p.low, high = string.at[n] >= p.high;
-  if (!low && !high) return false;
-  const double slope = dot(p.along, unit(string.corner(n + 1) - string.corner(n))) -
-                       dot(p.along, unit(string.corner(n + 2) - string.corner(n + 1)));
-  return low ? slope > outward : slope < -outward;
 }
 
 }  // namespace plexway::strings

@@ -51,7 +51,4 @@ class Puller {
   std::vector<double> gradient_, diagonal_, beside_, move_, kept_;
 };
 
-/// Is a bend of a taut string held at the end of its place, and would go on past it?
-[[nodiscard]] bool is_held(const String& string, std::size_t n);
-
 }  // namespace plexway::strings

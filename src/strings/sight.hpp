@@ -37,7 +37,6 @@ class Sight {
   [[nodiscard]] std::optional<Touch> touch(const Point& from, const Point& to, const Point& free,
                                            const std::array<Index, 2>& known) const;
 
-  [[nodiscard]] std::size_t hiding() const { return walls_.size(); }
   [[nodiscard]] std::size_t bytes() const {
     return walls_.capacity() * sizeof(Wall) + tree_.bytes();
   }

@@ -60,7 +60,6 @@ void Solver::take(Index vertex, const Label& label) {
 void Solver::expand(Index vertex, const Label& label) {
   prepared_ = false;
   from_ = vertex;
-  rows_ = space_->rows_at(vertex);
   for (const Index w : space_->neighbours(vertex)) offer(vertex, label, w);
 }
 
@@ -389,7 +388,6 @@ void Solver::attach(const Point& at, const std::array<Index, 4>& corners,
   }
   for (const Index v : corners) {
     from_ = v;
-    rows_ = space_->rows_at(v);
     for (const Label& label : VertexLabels(vertices_[v]).labels) {
       prepared_ = false;
       if (label.chain != none) offer(v, label, number);

@@ -134,8 +134,7 @@ class Solver {
   std::unordered_map<Index, Place> corners_;
   Puller puller_;
   Attempt base_, attempt_, other_;
-  Index from_ = none;                              // the vertex that offers
-  std::span<const std::pair<Index, Index>> rows_;  // there
+  Index from_ = none;  // the vertex that offers
   Point attached_ = {0, 0, 0}, attached_beside_ = {0, 0, 0};
   bool prepared_ = false;
   double behind_ = .5;

@@ -152,14 +152,20 @@ TEST_CASE("no welding of a random solid with its own surface is below the straig
         for (std::size_t k = 0; k < 3; ++k)
           from[k] = .5 * s.skin[s.triangles[f][0]][k] + .3 * s.skin[s.triangles[f][1]][k] +
                     .2 * s.skin[s.triangles[f][2]][k];
-      const auto field = solve(Serial{}, domain,
-                               in_skin ? PointSource::in(skin.simplex(f), {.5, .3, .2})
-                                       : PointSource::at(solid.vertex(v)));
+      const PointSource source = in_skin ? PointSource::in(skin.simplex(f), {.5, .3, .2})
+                                         : PointSource::at(solid.vertex(v));
+      const auto field = solve(Serial{}, domain, source);
+      constexpr double radius = .6;
+      const auto near = solve(Serial{}, domain, source, {.radius = radius});
       ++fields;
       const auto check = [&](const auto& piece, const std::vector<Position>& at) {
         for (Index w = 0; w < at.size(); ++w) {
           CAPTURE(seed, in_skin, w);
-          REQUIRE(field.distance[piece.vertex(w)] >= apart(at[w], from) * (1 - 1e-9));
+          const double least = apart(at[w], from) * (1 - 1e-9);
+          REQUIRE(field.distance[piece.vertex(w)] >= least);
+          const double there = near.distance[piece.vertex(w)];
+          REQUIRE(there >= least);
+          if (std::isfinite(there)) REQUIRE(there <= radius);
         }
       };
       check(solid, s.positions);
