@@ -53,9 +53,7 @@ class SimplexString {
     const BendingFace<N>& f = domain_.faces[face];
     add({face, true, along, domain_.held(f, along), f.at(along)});
   }
-  void add_point(const Point& at, const Point& sharp) {
-    add({none, true, {}, at, sharp});
-  }
+  void add_point(const Point& at, const Point& sharp) { add({none, true, {}, at, sharp}); }
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t bends() const { return count_ - 2; }
   [[nodiscard]] const Node& operator[](std::size_t i) const { return node_[i]; }
