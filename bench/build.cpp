@@ -1,6 +1,6 @@
 // What building costs before the first solve: surfaces, the same by way of Delaunay triangles, and
 // solids. Times are medians of the processor, one thread, or with --threads of the clock;
-// instructions and cycles are those of the processor's own counters for the thread that calls,
+// instructions are those of the processor's own counters for the thread that calls,
 // which other programs disturb not at all and little (Linux; blank where they are not to be had);
 // memory is what is allocated beyond the input, at the peak and held.
 
@@ -63,13 +63,12 @@ namespace bench::build {
 /// What the processor counts of this thread outside the kernel.
 class Counter {
  public:
-  enum class Of { instructions, cycles };
-  explicit Counter([[maybe_unused]] Of what) {
+  Counter() {
 #ifdef __linux__
     perf_event_attr wanted{};
     wanted.type = PERF_TYPE_HARDWARE;
     wanted.size = sizeof wanted;
-    wanted.config = what == Of::cycles ? PERF_COUNT_HW_CPU_CYCLES : PERF_COUNT_HW_INSTRUCTIONS;
+    wanted.config = PERF_COUNT_HW_INSTRUCTIONS;
     wanted.exclude_kernel = 1;
     file_ = static_cast<int>(syscall(SYS_perf_event_open, &wanted, 0, -1, -1, 0));
 #endif
@@ -96,31 +95,28 @@ class Counter {
 /// `make` returns what is built, so that what it holds can be told. Figures are of a unit.
 template <class Make>
 Row measure(std::size_t units, int repeats, bool by_clock, const Make& make) {
-  const Counter instructions(Counter::Of::instructions), cycles(Counter::Of::cycles);
-  std::vector<double> times, counts, cycle_counts;
+  const Counter instructions;
+  std::vector<double> times, counts;
   const double n = static_cast<double>(units);
   double held_each = 0, peak_each = 0;
   counting = true;
   for (int i = 0; i < repeats; ++i) {
     const std::size_t before = held;
     peak = held.load();
-    const std::uint64_t start = instructions.now(), first_cycle = cycles.now();
-    std::uint64_t end = start, last_cycle = first_cycle;
+    const std::uint64_t start = instructions.now();
+    std::uint64_t end = start;
     const auto work = [&] {
       const auto made = make();
       end = instructions.now();
-      last_cycle = cycles.now();
       held_each = static_cast<double>(held - before) / n;
     };
     times.push_back(1e9 / n * (by_clock ? seconds(work) : processor_seconds(work)));
     counts.push_back(static_cast<double>(end - start) / n);
-    cycle_counts.push_back(static_cast<double>(last_cycle - first_cycle) / n);
     peak_each = static_cast<double>(peak - before) / n;
   }
   counting = false;
   Row row = {{"ns", median(times)}, {"peak_bytes", peak_each}, {"held_bytes", held_each}};
   if (median(counts) > 0) row["instructions"] = median(counts);
-  if (median(cycle_counts) > 0) row["cycles"] = median(cycle_counts);
   return row;
 }
 
@@ -132,8 +128,6 @@ void of_surface(const Surface& s, int threads, const Add& add) {
   hints.threads = threads;
   add("surface, float", [&] { return TriangleMesh<float>(s.positions, s.faces, hints); });
   add("surface, double", [&] { return TriangleMesh<double>(s.positions, s.faces, hints); });
-  add("surface or what pays, float",
-      [&] { return plexway::triangulate<float>(s.positions, s.faces, {}, threads); });
   add("by Delaunay, float", [&] {
     return plexway::triangulate<float>(s.positions, s.faces, plexway::Retriangulation::flips,
                                        threads);
@@ -151,7 +145,7 @@ void run(Arguments& arguments) {
   arguments.add_limit();
   Table& table = arguments.table(
       "input; built; units: vertices or tets %.0f; ns: ns each %.0f;"
-      "instructions: instructions each %.0f; cycles: cycles each %.0f;"
+      "instructions: instructions each %.0f;"
       "peak_bytes: peak bytes each %.0f; held_bytes: held bytes each %.0f; note");
   const auto add = [&](const std::string& input, const char* built, std::size_t units,
                        const auto& make) {

@@ -1,6 +1,6 @@
 // Point clouds: errors against exact answers, times against Boost's Dijkstra on the graph of the 16
-// nearest neighbours, memory. Clouds with exact answers from a folder, and generated ones, spread
-// evenly or sampled at random, as they are or noisy, and smoothed.
+// nearest neighbours, memory. Clouds with exact answers from a folder, and generated ones, as they
+// are or noisy, and smoothed.
 
 #if defined(PLEXWAY_HAS_FLANN) && defined(PLEXWAY_HAS_BOOST_GRAPH)
 
@@ -16,7 +16,6 @@
 #include <plexway/flann/neighbours.hpp>
 
 #include "../data/cloud_shapes.hpp"
-#include "../data/sampled_clouds.hpp"
 #include "solver.hpp"
 
 namespace bench::clouds {
@@ -60,19 +59,6 @@ Cloud generate(const std::string& kind, std::size_t n) {
   Truth truth{0, std::vector<double>(n)};
   for (std::size_t i = 0; i < n; ++i) truth.distance[i] = made.distance(0, i);
   return {kind + "_" + std::to_string(n), std::move(made.points), {std::move(truth)}};
-}
-
-/// Sampled at random; the noise is in spacings.
-Cloud sample(const std::string& kind, std::size_t n, double noise) {
-  samples::SampledCloud (*make)(std::size_t, double, std::uint64_t) = samples::sampled_plane;
-  if (kind == "sphere") make = samples::sampled_sphere;
-  if (kind == "cylinder") make = samples::sampled_cylinder;
-  if (kind == "swiss") make = samples::sampled_swiss;
-  samples::SampledCloud made = make(n, noise, 1);
-  std::array<char, 64> name{};
-  std::snprintf(name.data(), name.size(), "%s %zu, noise %.2f", kind.c_str(), n, noise);
-  Truth truth{0, made.distances_from(0)};
-  return {name.data(), std::move(made.points), {std::move(truth)}};
 }
 
 plexway::boost_graph::EdgeGraph graph_of(const Cloud& cloud,
@@ -159,10 +145,9 @@ Row measure(const Cloud& cloud, const Settings& settings) {
 
 void run(Arguments& arguments) {
   Settings settings;
-  std::string folder, lengths = "automatic";
-  std::vector<std::string> kinds = {"plane", "sphere", "swiss", "wall", "sphn"}, sampled;
+  std::string folder;
+  std::vector<std::string> kinds = {"plane", "sphere", "swiss", "wall", "sphn"};
   std::vector<std::size_t> sizes;
-  std::vector<double> noises = {0, .25, .5, 1};
   bool twice = false;
   settings.cloud.threads = 1;
   settings.effort.add_options(arguments);
@@ -170,15 +155,9 @@ void run(Arguments& arguments) {
   arguments.option("--generated", &sizes, "Also generated clouds of so many points");
   arguments.option("--kinds", &kinds, "Of these, spread evenly",
                    {"plane", "sphere", "sphn", "swiss", "cylinder", "wall"});
-  arguments.option("--sampled", &sampled, "Of these instead, sampled at random",
-                   {"plane", "sphere", "cylinder", "swiss"});
-  arguments.option("--noise", &noises, "With --sampled: moved by so many spacings");
   arguments.option("--smooth", &settings.smooth, "Smoothed first");
   arguments.option("-k", &settings.k, "Neighbours");
   arguments.option("--threads", &settings.cloud.threads, "For the set-up");
-  arguments.option("--lengths", &lengths, "Of edges", {"automatic", "space", "tangential"});
-  arguments.option("--boundary-circle", &settings.cloud.widest_boundary_circle,
-                   "As CloudOptions has it");
   arguments.add_limit();
   arguments.option("--double", &twice, "Double instead of float");
   Table& table = arguments.table(
@@ -187,8 +166,6 @@ void run(Arguments& arguments) {
       "dijkstra_mean: Dijkstra mean %.1e; search_us: neighbours us %.2f; build_us: cloud us %.2f;"
       "setup_us: set-up us %.2f; ns: solve ns %.0f; dijkstra_ns: Dijkstra ns %.0f; ratio %.2f;"
       "bytes %.0f; peak_bytes: peak bytes %.0f; triangles %.3f; note");
-  if (lengths == "space") settings.cloud.lengths = plexway::EdgeLengths::in_space;
-  if (lengths == "tangential") settings.cloud.lengths = plexway::EdgeLengths::tangential;
   const auto on = [&](const Cloud& cloud) {
     table.measure({{"cloud", cloud.name}}, arguments.limit, [&] {
       return twice ? measure<double>(cloud, settings) : measure<float>(cloud, settings);
@@ -200,10 +177,6 @@ void run(Arguments& arguments) {
       if (entry.path().extension() == ".xyz") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   for (const auto& file : files) on(read_cloud(file));
-  for (const std::string& kind : sampled)
-    for (const std::size_t size : sizes)
-      for (const double noise : noises) on(sample(kind, size, noise));
-  if (!sampled.empty()) return;
   for (const std::string& kind : kinds)
     for (const std::size_t size : sizes) on(generate(kind, size));
 }

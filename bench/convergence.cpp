@@ -1,5 +1,5 @@
 // Error against mesh size: smooth surfaces, a polyhedral one, a regular grid, solids with
-// obstacles. convergence.sh draws the plot.
+// obstacles.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "../data/shapes.hpp"
 #include "solver.hpp"
 #ifdef PLEXWAY_HAS_TETGEN
-#include "solid_domains.hpp"
+#include "tetgen/solid_domains.hpp"
 #endif
 
 namespace bench::convergence {
@@ -53,35 +53,6 @@ Sample sphere(Index n) {
     exact.push_back(std::atan2(std::sqrt(samples::dot(across, across)), samples::dot(s, p)));
   }
   return measure(shape, source, exact);
-}
-
-Shape torus(Index rings) {
-  Shape shape;
-  const Index sides = rings / 2;
-  for (Index i = 0; i < rings; ++i)
-    for (Index j = 0; j < sides; ++j) {
-      const double u = 2 * samples::pi * i / rings, v = 2 * samples::pi * j / sides;
-      const double r = 1 + 0.4 * std::cos(v);
-      shape.add({r * std::cos(u), r * std::sin(u), 0.4 * std::sin(v)});
-    }
-  samples::add_tube_faces(shape, rings, sides);
-  return shape;
-}
-
-/// Its vertices are some of the finest mesh's, whose distances stand in for exact ones.
-constexpr Index finest_torus = 1024;
-Sample torus_sample(Index rings) {
-  static const std::vector<double> reference = [] {
-    const Shape fine = torus(finest_torus);
-    return distances(plexway::TriangleMesh<double>(fine.points, fine.faces),
-                     plexway::PointSource::at(0), one_label());
-  }();
-  const Index step = finest_torus / rings;
-  std::vector<double> exact;
-  for (Index i = 0; i < rings; ++i)
-    for (Index j = 0; j < rings / 2; ++j)
-      exact.push_back(reference[i * step * (finest_torus / 2) + j * step]);
-  return measure(torus(rings), 0, exact);
 }
 
 /// The surface of the unit cube, from a corner: faces unfolded into a plane.
@@ -179,11 +150,6 @@ std::vector<Series> all_series(double most_tets) {
   };
   std::vector<Series> all = {
       {"sphere", "smooth surface", "great circles", {8, 16, 32, 64, 128}, of(sphere)},
-      {"torus",
-       "smooth surface",
-       "itself, 1 M triangles",
-       {16, 32, 64, 128, 256},
-       of(torus_sample)},
       {"cube", "polyhedral surface", "unfolding", {8, 16, 32, 64, 128}, of(cube)},
       {"ripple", "regular grid", "meridians", {16, 32, 64, 128, 256}, of(ripple)}};
 #ifdef PLEXWAY_HAS_TETGEN
@@ -224,6 +190,6 @@ void run(Arguments& arguments) {
     }
   }
 }
-const Command command("convergence", "error against mesh size (convergence.sh draws it)", run);
+const Command command("convergence", "error against mesh size", run);
 
 }  // namespace bench::convergence

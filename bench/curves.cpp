@@ -1,11 +1,13 @@
-// Sources that are not points, against closed forms: a segment, a circle and a triangle, each as
-// one source by windows, by labels, and as 200 points of it by labels, in turns. Errors are
-// relative to the distance, but where that is less than an edge, to the edge.
+// Sources that are not points, against closed forms: a segment, a circle and a triangle, by windows
+// and by labels, in turns. Errors are relative to the distance, but where that is less than an
+// edge, to the edge.
 
 #include <algorithm>
 #include <cmath>
 
-#include "path_points.hpp"
+#include <plexway/apps/path_field.hpp>
+
+#include "../data/shapes.hpp"
 #include "solver.hpp"
 
 namespace bench::curves {
@@ -68,7 +70,6 @@ Unrolled prism(Index n) {
 struct Case {
   std::string name;
   plexway::Source source;
-  std::vector<PointSource> points;
   std::function<double(const Point&)> exact;
 };
 
@@ -79,87 +80,61 @@ double to_segment(const Point& p, const Point& a, const Point& b) {
   return std::sqrt(samples::dot(off, off));
 }
 
-constexpr std::size_t count = 200;
-
 Case segment(const Unrolled& s, const plexway::TriangleMesh<double>& mesh) {
   const Index from = s.nearest(0.22, 0.31), to = s.nearest(0.57, 0.42);
   plexway::PathField field(mesh, s.shape.points);
   field.solve(plexway::Serial{}, PointSource::at(from));
   const plexway::Path path = field.trace(to);
-  Case one{"segment", {}, {}, [&s, a = s.flat[from], b = s.flat[to]](const Point& p) {
+  Case one{"segment", {}, [&s, a = s.flat[from], b = s.flat[to]](const Point& p) {
              double d = 1e300;
              for (const double turn : {-s.around, 0., s.around})
                d = std::min(d, to_segment({p[0] + turn, p[1], 0}, a, b));
              return d;
            }};
-  one.source = curve_of(path, from, to);
-  one.points = points_along(path, s.shape.points, s.shape.faces, count);
+  plexway::CurveSource curve;
+  for (const auto& p : path.points)
+    curve.points.push_back(PointSource::in(p.simplex, p.barycentric));
+  curve.points.front() = PointSource::at(to);
+  curve.points.back() = PointSource::at(from);
+  one.source = curve;
   return one;
 }
 
 Case circle(const Unrolled& s) {
   const Index centre = s.nearest(0.5, 0.5);
   const double radius = 0.3;
-  Case one{"circle",
-           plexway::BallSource{.centre = PointSource::at(centre), .radius = radius},
-           {},
-           [c = s.flat[centre], radius](const Point& p) {
-             return std::abs(std::hypot(p[0] - c[0], p[1] - c[1]) - radius);
-           }};
-  for (std::size_t i = 0; i < count; ++i) {
-    const double turn = 2 * samples::pi * static_cast<double>(i) / count;
-    const Point x = s.flat[centre] + radius * Point{std::cos(turn), std::sin(turn), 0};
-    for (Index f = 0; f < s.shape.faces.size(); ++f) {
-      const auto& [i0, i1, i2] = s.shape.faces[f];
-      const Point &a = s.flat[i0], &b = s.flat[i1], &c = s.flat[i2];
-      const double all = samples::cross(b - a, c - a)[2];
-      const double u = samples::cross(b - x, c - x)[2] / all;
-      const double v = samples::cross(c - x, a - x)[2] / all;
-      if (u < 0 || v < 0 || u + v > 1) continue;
-      one.points.push_back(PointSource::in(f, {u, v, 1 - u - v}));
-      break;
-    }
-  }
-  return one;
+  return {"circle", plexway::BallSource{.centre = PointSource::at(centre), .radius = radius},
+          [c = s.flat[centre], radius](const Point& p) {
+            return std::abs(std::hypot(p[0] - c[0], p[1] - c[1]) - radius);
+          }};
 }
 
 Case triangle(const Unrolled& s) {
   const Index f = static_cast<Index>(s.shape.faces.size() / 2 + 9);
-  Case one{"triangle", plexway::SimplexSource{.simplex = f}, {}, [&s, f](const Point& p) {
-             double d = 1e300, least = 1e300;
-             for (std::size_t i = 0; i < 3; ++i) {
-               const Point &a = s.flat[s.shape.faces[f][i]],
-                           &b = s.flat[s.shape.faces[f][(i + 1) % 3]];
-               d = std::min(d, to_segment(p, a, b));
-               least = std::min(least, samples::cross(b - a, p - a)[2]);
-             }
-             return least > 0 ? 0 : d;
-           }};
-  for (std::size_t i = 0; i < count; ++i) {
-    const double at = 3 * static_cast<double>(i) / count;
-    const std::size_t k = static_cast<std::size_t>(at);
-    std::array<double, 3> b = {0, 0, 0};
-    b[k] = 1 - (at - static_cast<double>(k));
-    b[(k + 1) % 3] = 1 - b[k];
-    one.points.push_back(PointSource::in(f, b));
-  }
-  return one;
+  return {"triangle", plexway::SimplexSource{.simplex = f}, [&s, f](const Point& p) {
+            double d = 1e300, least = 1e300;
+            for (std::size_t i = 0; i < 3; ++i) {
+              const Point &a = s.flat[s.shape.faces[f][i]],
+                          &b = s.flat[s.shape.faces[f][(i + 1) % 3]];
+              d = std::min(d, to_segment(p, a, b));
+              least = std::min(least, samples::cross(b - a, p - a)[2]);
+            }
+            return least > 0 ? 0 : d;
+          }};
 }
 
 Row measure(const Unrolled& s, const plexway::TriangleMesh<double>& mesh, const Case& one,
             plexway::Accuracy accuracy, std::size_t turns) {
   plexway::PropagateOptions options;
   options.accuracy = accuracy;
-  Solver whole(mesh), by_labels(mesh), sampled(mesh);
-  std::vector<double> first, ratio, to_labels;
+  Solver whole(mesh), by_labels(mesh);
+  std::vector<double> first, to_labels;
   for (std::size_t i = 0; i <= turns; ++i) {
     const double a = seconds([&] { whole.solve(one.source, options); });
     const double b = seconds([&] { by_labels.solve(one.source, one_label()); });
-    const double c = seconds([&] { sampled.solve(one.points, one_label()); });
     if (i == 0) continue;
     first.push_back(1e9 * a / static_cast<double>(s.flat.size()));
     to_labels.push_back(a / b);
-    ratio.push_back(a / c);
   }
   Row row = {{"surface", s.name}, {"vertices", s.flat.size()}, {"source", one.name}};
   const auto add = [&](const std::string& named, const std::vector<double>& found) {
@@ -174,9 +149,7 @@ Row measure(const Unrolled& s, const plexway::TriangleMesh<double>& mesh, const 
   };
   add("", whole.distance());
   add("labels_", by_labels.distance());
-  add("points_", sampled.distance());
-  return row.update(
-      {{"ns", median(first)}, {"to_labels", median(to_labels)}, {"ratio", median(ratio)}});
+  return row.update({{"ns", median(first)}, {"to_labels", median(to_labels)}});
 }
 
 void run(Arguments& arguments) {
@@ -188,8 +161,7 @@ void run(Arguments& arguments) {
   arguments.option("--accuracy", &accuracy, "Mean relative error to ask windows for; 0: exact");
   Table& table = arguments.table(
       "surface; vertices; source; mean: error mean %.1e; max %.1e; labels_mean: labels: mean %.1e;"
-      "labels_max: max %.1e; points_mean: 200 points: mean %.1e; points_max: max %.1e;"
-      "ns: ns/V %.0f; to_labels: time / labels %.2f; ratio: time / 200 points %.2f");
+      "labels_max: max %.1e; ns: ns/V %.0f; to_labels: time / labels %.2f");
   for (const Index n : cells)
     for (const Unrolled& s : {square(n), prism(n)}) {
       const plexway::TriangleMesh<double> mesh(s.shape.points, s.shape.faces);

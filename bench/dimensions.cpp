@@ -1,6 +1,5 @@
 // Flat domains of two, three and four dimensions with boxes as obstacles: errors of strings and of
-// the plain step against the shortest ways by brute force, and how much longer strings take. Around
-// a ball of cells, whose faces are many and small, only the time.
+// the plain step against the shortest ways by brute force, and how much longer strings take.
 
 #include <cmath>
 #include <random>
@@ -16,8 +15,6 @@ struct Settings {
   unsigned first = 1, draws = 40, sources = 2, targets = 100, turns = 3;
   std::size_t density = 1, cells = 0;
   int dimension = 0;
-  std::string domains = "all";
-  bool in_float = false;
 };
 
 PropagateOptions plain_step() {
@@ -46,12 +43,12 @@ struct Deviations {
 };
 
 /// Processor time of both, in so many turns.
-template <class Real, int N>
+template <int N>
 class Race {
  public:
   explicit Race(unsigned turns) : turns_(turns) {}
 
-  void run(const SimplicialComplex<Real, N>& domain, Index source) {
+  void run(const SimplicialComplex<double, N>& domain, Index source) {
     Solver solver(domain);
     const auto timed = [&](const PropagateOptions& options, double& sum) {
       sum += processor_seconds([&] { solver.solve(source, options); });
@@ -77,13 +74,13 @@ class Race {
   double strings_ = 0, plain_ = 0, simplices_ = 0, solves_ = 0;
 };
 
-template <class Real, int N>
+template <int N>
 Row boxes(const Settings& effort, std::size_t cells, unsigned most, std::size_t density) {
   Deviations strings, plain;
-  Race<Real, N> race(effort.turns);
+  Race<N> race(effort.turns);
   for (unsigned seed = effort.first; seed < effort.first + effort.draws; ++seed) {
     const auto obstacles = plexway::testing::random_obstacles<N>(seed, cells, most);
-    const auto domain = obstacles.template complex<Real>();
+    const auto domain = obstacles.template complex<double>();
     plexway::testing::ShortestWays<N> ways(obstacles, effort.density * density);
     std::mt19937 random(seed);
     const auto any = [&] {
@@ -123,67 +120,37 @@ Row boxes(const Settings& effort, std::size_t cells, unsigned most, std::size_t 
   return row;
 }
 
-/// The cube without the cells whose centres are within `radius` of its own centre.
-template <class Real, int N>
-Row ball(const Settings& effort, std::size_t cells, double radius) {
-  const auto grid = plexway::testing::cube_grid<N>(cells);
-  const auto domain = grid.template complex<Real>([&](const auto& cell) {
-    double sum = 0;
-    for (const double x : grid.centre(cell)) sum += (x - .5) * (x - .5);
-    return sum < radius * radius;
-  });
-  Race<Real, N> race(effort.turns);
-  for (const Index source : spread_numbers(effort.sources, grid.vertex_count()))
-    if (!domain.corners_at(domain.inside_vertex(source)).empty()) race.run(domain, source);
-  Row row = {{"domain", "a ball of cells"}, {"N", N}, {"cells", cells}};
-  row.update(race.row());
-  return row;
-}
-
 /// So many cells a side, and boxes at most.
 struct Boxes {
   std::size_t cells;
   unsigned most;
 };
 
-template <class Real, int N>
-void fill(Table& table, const Settings& effort, std::vector<Boxes> usual, std::size_t density,
-          std::size_t ball_cells) {
+template <int N>
+void fill(Table& table, const Settings& effort, std::vector<Boxes> usual, std::size_t density) {
   if (effort.dimension != 0 && effort.dimension != N) return;
-  if (effort.cells != 0) {
-    usual = {{effort.cells, usual.back().most}};
-    ball_cells = effort.cells;
-  }
-  if (effort.domains != "ball")
-    for (const auto& [cells, most] : usual) table.add(boxes<Real, N>(effort, cells, most, density));
-  if (effort.domains != "boxes") table.add(ball<Real, N>(effort, ball_cells, .3));
+  if (effort.cells != 0) usual = {{effort.cells, usual.back().most}};
+  for (const auto& [cells, most] : usual) table.add(boxes<N>(effort, cells, most, density));
 }
-template <class Real>
-void fill(Table& table, const Settings& effort) {
-  fill<Real, 2>(table, effort, {{16, 4}}, 2, 60);
-  fill<Real, 3>(table, effort, {{8, 3}, {12, 4}, {16, 4}}, 24, 20);
-  fill<Real, 4>(table, effort, {{6, 2}, {8, 2}}, 5, 8);
-}
-
 void run(Arguments& arguments) {
   Settings settings;
   arguments.positive("--draws", &settings.draws, "Random domains of each kind");
   arguments.option("--first", &settings.first, "The first of them");
   arguments.option("--dimension", &settings.dimension, "2, 3 or 4 alone");
   arguments.option("--cells", &settings.cells, "So many a side instead of the usual numbers");
-  arguments.option("--domains", &settings.domains, "One kind alone", {"all", "boxes", "ball"});
   arguments.option("--density", &settings.density,
                    "So many times the points on faces for the truth");
   arguments.option("--sources", &settings.sources, "Sources in each");
   arguments.option("--targets", &settings.targets, "Random vertices for each");
   arguments.option("--turns", &settings.turns, "How often each is timed, 0: errors alone");
-  arguments.option("--float", &settings.in_float, "Lengths in float instead of double");
   Table& table = arguments.table(
       "domain; N; cells: cells a side; simplices %.0f; distances; mean: strings: mean %.1e;"
       "worst %.1e; worst_draw: draw; below: most below %.1e; below_draw: draw; long: > 1e-3 long;"
       "plain_mean: plain step: mean %.1e; plain_worst: worst %.1e; ns: strings: ns/simplex %.0f;"
       "ratio: x plain step %.1f");
-  settings.in_float ? fill<float>(table, settings) : fill<double>(table, settings);
+  fill<2>(table, settings, {{16, 4}}, 2);
+  fill<3>(table, settings, {{8, 3}, {12, 4}, {16, 4}}, 24);
+  fill<4>(table, settings, {{6, 2}, {8, 2}}, 5);
 }
 const Command command("dimensions", "boxes in 2, 3 and 4 dimensions, against brute force", run);
 

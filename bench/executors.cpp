@@ -1,204 +1,159 @@
-// OpenMP against Serial: one field from many sources on a large surface, a batch of fields, what
-// the size of a chunk does, and from what size and number of sources a team is faster. A row says
-// what is asked of it, where something is, and what was measured.
+// Executors beside one serial thread, in turns: one field from one source and from many, and many
+// fields at once, by several threads and on a graphics processor. Also how far their distances are
+// from Serial's and from exact answers, and whether every solve has the same bits.
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 #include "solver.hpp"
+#ifdef PLEXWAY_HAS_GL
+#include <plexway/executors/gl.hpp>
+#endif
 
 namespace bench::executors {
 
 using plexway::OpenMP, plexway::PointSource, plexway::Serial;
+using Mesh = plexway::TriangleMesh<float>;
 
-struct Settings {
-  std::size_t vertices = 1'000'000, batch_vertices = 50'000;
-  std::vector<std::size_t> sources = {1, 1000};
-  std::size_t batch = 64, repeats = 5;
-  std::vector<int> threads;
-  std::vector<std::size_t> chunks = {16, 32, 64, 128, 256, 512, 1024, 4096};
-  std::vector<std::size_t> sizes = {25'000, 100'000, 400'000}, counts = {1, 8, 64, 512};
+struct Work {
+  std::size_t sources = 1;
+  bool batch = false;  ///< one field a source
+
+  [[nodiscard]] std::string name() const {
+    return std::to_string(sources) + (batch ? " fields" : sources > 1 ? " sources" : " source");
+  }
 };
 
-/// What is asked of a team of so many threads, in times Serial; 0: nothing.
-double asked_of_field(int threads, std::size_t sources) {
-  if (threads == 1) return 1 / 1.5;
-  return threads == 2 && sources >= 1000 ? 1.6 : 0;
-}
-double asked_of_batch(int threads) { return threads == 2 ? 1.9 : 0; }
-
-void add_row(Table& table, Row row, double asked) {
-  if (asked > 0) {
-    row["asked"] = asked;
-    row["met"] = row["speed"].number() >= asked ? "yes" : "no";
-  }
-  table.add(std::move(row));
-}
-
-std::vector<PointSource> sources_on(const Surface& surface, std::size_t count) {
-  std::vector<PointSource> sources;
-  for (const Index v : rotating_sources(surface, count)) sources.push_back(PointSource::at(v));
-  return sources;
-}
-
-/// Seconds of each of `works`, the least of `repeats`; they take turns, so that all see the same
-/// machine.
-std::vector<double> least_of(std::size_t repeats, const std::vector<std::function<void()>>& works) {
-  std::vector<double> least(works.size(), 1e300);
-  for (std::size_t r = 0; r < repeats; ++r)
-    for (std::size_t i = 0; i < works.size(); ++i) least[i] = std::min(least[i], seconds(works[i]));
-  return least;
-}
-
-std::string named(const std::string& what, int threads) {
-  return what + ", " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
-}
-
-template <class Real>
-void measure_field(const Surface& surface, const Settings& settings, std::size_t count,
-                   const std::vector<std::pair<std::string, OpenMP>>& teams, Table& table) {
-  const plexway::TriangleMesh<Real> mesh(surface.positions, surface.faces);
-  const auto sources = sources_on(surface, count);
-  plexway::Workspace<Real> workspace;
-  plexway::DistanceField<Real> field;
-  std::vector<std::size_t> expansions(teams.size() + 1);
-  std::vector<std::function<void()>> works;
-  const auto add = [&](const auto& executor) {
-    works.push_back([&, executor, i = works.size()] {
-      plexway::solve(executor, mesh, sources, one_label(), workspace, field);
-      expansions[i] = field.statistics.expansions;
-    });
-  };
-  add(Serial{});
-  for (const auto& team : teams) add(team.second);
-  const auto seconds = least_of(settings.repeats, works);
-  for (std::size_t i = 0; i < works.size(); ++i)
-    add_row(table,
-            {{"what", "field, " + std::to_string(count) + (count == 1 ? " source" : " sources")},
-             {"vertices", surface.positions.size()},
-             {"executor", i == 0 ? "Serial" : teams[i - 1].first},
-             {"ms", 1e3 * seconds[i]},
-             {"speed", seconds[0] / seconds[i]},
-             {"expansions",
-              static_cast<double>(expansions[i]) / static_cast<double>(surface.faces.size())}},
-            i == 0 ? 0 : asked_of_field(teams[i - 1].second.threads, count));
-}
-
-/// As much as this machine's cores can do: threads that share nothing, each with a mesh, a
-/// workspace and a field of its own that are there before the clock starts, and the same number of
-/// sources.
-template <class Real>
-class Strangers {
+/// One executor at one piece of work.
+template <class Executor>
+class Runner {
  public:
-  Strangers(const Surface& surface, int threads) : own_(static_cast<std::size_t>(threads)) {
-    for (auto& mine : own_) mine = std::make_unique<Own>(surface);
+  Runner(const Mesh& mesh, const Executor& executor, const plexway::PropagateOptions& options,
+         std::vector<PointSource> sources, bool batch)
+      : mesh_(mesh), executor_(executor), options_(options), sources_(std::move(sources)) {
+    if (batch) rows_.resize(sources_.size() * mesh.vertex_count());
   }
-  void solve(std::span<const PointSource> sources) {
-    std::vector<std::thread> threads;
-    for (std::size_t i = 0; i < own_.size(); ++i)
-      threads.emplace_back([&, i] {
-        for (std::size_t k = i; k < sources.size(); k += own_.size())
-          plexway::solve(Serial{}, own_[i]->mesh, sources.subspan(k, 1), one_label(),
-                         own_[i]->workspace, own_[i]->field);
-      });
-    for (std::thread& thread : threads) thread.join();
+  void operator()() {
+    if (rows_.empty())
+      plexway::solve(executor_, mesh_, sources_, options_, workspace_, field_);
+    else
+      solve_each(executor_, mesh_, sources_, options_, workspace_, std::span<float>(rows_));
   }
+  [[nodiscard]] const std::vector<float>& found() const {
+    return rows_.empty() ? field_.distance : rows_;
+  }
+  [[nodiscard]] std::size_t expansions() const { return field_.statistics.expansions; }
+  [[nodiscard]] const auto& workspace() const { return workspace_; }
 
  private:
-  struct Own {
-    explicit Own(const Surface& surface) : mesh(surface.positions, surface.faces) {}
-    plexway::TriangleMesh<Real> mesh;
-    plexway::Workspace<Real> workspace;
-    plexway::DistanceField<Real> field;
-  };
-  std::vector<std::unique_ptr<Own>> own_;
+  const Mesh& mesh_;
+  Executor executor_;
+  plexway::PropagateOptions options_;
+  std::vector<PointSource> sources_;
+  plexway::WorkspaceOf<Executor, Mesh> workspace_;
+  plexway::DistanceField<float> field_;
+  std::vector<float> rows_;
 };
 
-template <class Real>
-void measure_batch(const Surface& surface, const Settings& settings, Table& table) {
-  const plexway::TriangleMesh<Real> mesh(surface.positions, surface.faces);
-  const auto list = sources_on(surface, settings.batch);
-  const std::span<const PointSource> sources(list);
-  std::vector<std::function<void()>> works = {
-      [&] { (void)solve_each(Serial{}, mesh, sources, one_label()); }};
-  for (const int threads : settings.threads)
-    works.push_back(
-        [&, threads] { (void)solve_each(OpenMP{.threads = threads}, mesh, sources, one_label()); });
-  Strangers<Real> one(surface, 1), all(surface, settings.threads.back());
-  works.push_back([&] { one.solve(sources); });
-  works.push_back([&] { all.solve(sources); });
-  const auto seconds = least_of(settings.repeats, works);
-  const std::size_t teams = settings.threads.size();
-  const auto row = [&](const std::string& executor, double time, double reference, double asked) {
-    add_row(table,
-            {{"what", "batch of " + std::to_string(settings.batch)},
-             {"vertices", surface.positions.size()},
-             {"executor", executor},
-             {"ms", 1e3 * time},
-             {"speed", reference / time}},
-            asked);
-  };
-  row("Serial", seconds[0], seconds[0], 0);
-  for (std::size_t i = 0; i < teams; ++i)
-    row(named("OpenMP", settings.threads[i]), seconds[i + 1], seconds[0],
-        asked_of_batch(settings.threads[i]));
-  // Of one such thread: what is lost here is the machine's.
-  row(named("nothing shared", settings.threads.back()), seconds[teams + 2], seconds[teams + 1], 0);
-}
-
-/// From what size and number of sources is a team faster? What `auto` in the tool goes by.
-template <class Real>
-void measure_sizes(const Settings& settings, Table& table) {
-  const int threads = settings.threads.back();
-  for (const std::size_t size : settings.sizes) {
-    const Surface surface = bumpy_surface(size);
-    for (const std::size_t count : settings.counts)
-      measure_field<Real>(surface, settings, count,
-                          {{named("OpenMP", threads), OpenMP{.threads = threads}}}, table);
+template <class Executor>
+Row measure(const Surface& surface, const std::vector<Truth>& truths, const Work& work,
+            const Executor& executor, const plexway::PropagateOptions& options,
+            const Effort& effort) {
+  const Mesh mesh(surface.positions, surface.faces);
+  std::vector<PointSource> sources;
+  for (const Index v : rotating_sources(surface, work.sources))
+    sources.push_back(PointSource::at(v));
+  Runner runner(mesh, executor, options, sources, work.batch);
+  Runner serial(mesh, Serial{}, options, sources, work.batch);
+  const double first =
+      seconds([&] { runner(); });  // what is for a device goes there, shaders compile
+  serial();
+  const std::vector<float> bits = runner.found();
+  std::vector<double> serial_times, times;
+  double spent = 0;
+  std::size_t others = 0;
+  for (std::size_t n = 0; n < effort.repeats && (n == 0 || spent < effort.budget); ++n) {
+    serial_times.push_back(seconds([&] { serial(); }));
+    times.push_back(seconds([&] { runner(); }));
+    others += runner.found() != bits;
+    spent += serial_times.back() + times.back();
   }
-}
-
-template <class Real>
-void measure_all(const Settings& settings, Table& table) {
-  const Surface large = bumpy_surface(settings.vertices);
-  std::vector<std::pair<std::string, OpenMP>> teams;
-  for (const int threads : settings.threads)
-    teams.push_back({named("OpenMP", threads), OpenMP{.threads = threads}});
-  for (const std::size_t count : settings.sources)
-    measure_field<Real>(large, settings, count, teams, table);
-  measure_batch<Real>(bumpy_surface(settings.batch_vertices), settings, table);
-  measure_sizes<Real>(settings, table);
-  if (settings.chunks.empty()) return;
-  teams.clear();
-  for (const std::size_t chunk : settings.chunks)
-    teams.push_back({named("OpenMP", settings.threads.back()) + ", chunk " + std::to_string(chunk),
-                     OpenMP{.threads = settings.threads.back(), .chunk = chunk}});
-  for (const std::size_t count : settings.sources)
-    measure_field<Real>(large, settings, count, teams, table);
+  Apart apart;
+  apart.add(serial.found(), runner.found());
+  Row row = {{"serial_ms", 1e3 * median(serial_times)},
+             {"ms", 1e3 * median(times)},
+             {"speed", median(serial_times) / median(times)},
+             {"first_ms", 1e3 * first},
+             {"others", others},
+             {"apart", apart.mean()},
+             {"most", apart.most}};
+  if (!work.batch)
+    row["expansions"] =
+        static_cast<double>(runner.expansions()) / static_cast<double>(mesh.face_count());
+#ifdef PLEXWAY_HAS_GL
+  if constexpr (std::is_same_v<Executor, plexway::GL>) {
+    row["rounds"] = runner.workspace().rounds();
+    row["device"] = gl_device(executor).renderer;
+  }
+#endif
+  Errors errors;
+  if (work.sources == 1)
+    for (const Truth& truth : truths) {
+      Runner one(mesh, executor, options, {PointSource::at(truth.source)}, false);
+      one();
+      errors.add(truth, one.found());
+    }
+  add_errors(row, errors);
+  return row;
 }
 
 void run(Arguments& arguments) {
-  Settings settings;
-  bool twice = false;
-  arguments.option("--vertices", &settings.vertices, "Of the surface that one field is solved on");
-  arguments.option("--batch-vertices", &settings.batch_vertices, "Of the surface of the batch");
-  arguments.option("--sources", &settings.sources, "Of one field");
-  arguments.option("--batch", &settings.batch, "Fields in the batch");
-  arguments.option("--repeats", &settings.repeats, "Turns; the least time counts");
-  arguments.option("--threads", &settings.threads, "Teams (default: 1 and one a core)");
-  arguments.option("--chunks", &settings.chunks,
-                   "Chunks for the last team; `none` leaves that out");
-  arguments.option("--sizes", &settings.sizes, "Vertices of surfaces that teams are tried on");
-  arguments.option("--counts", &settings.counts, "Sources on each of them");
-  arguments.option("--double", &twice, "Double instead of float");
+  Effort effort{0, 5, 30};
+  Meshes meshes;
+  std::size_t many = 1000, batch = 64, batch_vertices = 200000;
+  std::vector<int> threads = {1,
+                              static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u))};
+  std::string accuracy = "fast";
+  bool gl = false;
+  int device = 0;
+  meshes.add_options(arguments, "--sizes");
+  arguments.option("--many", &many, "Sources of the field from many; 0: without");
+  arguments.option("--batch", &batch, "Fields in one call; 0: without");
+  arguments.option("--batch-vertices", &batch_vertices, "Fields at once only up to so many");
+  arguments.option("--threads", &threads, "Of OpenMP; `none` leaves it out");
+  arguments.option("--accuracy", &accuracy, "What is asked for", {"fast", "accurate", "exact"});
+  arguments.option("--gl", &gl, "Also compute shaders, by labels");
+  arguments.option("--device", &device, "Number in `plexway info --devices`");
+  arguments.option("--repeats", &effort.repeats, "Timed solves");
+  arguments.option("--budget", &effort.budget, "Seconds for them");
+  arguments.add_limit();
   Table& table = arguments.table(
-      "what; vertices; executor; ms %.1f; speed: times Serial %.2f; asked %.2f; met;"
-      "expansions: expansions a face %.3f");
-  if (settings.threads.empty())
-    settings.threads = {1, static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u))};
-  twice ? measure_all<double>(settings, table) : measure_all<float>(settings, table);
+      "mesh; vertices; work; executor; serial_ms: serial ms %.1f; ms %.1f;"
+      "speed: times as fast %.2f; first_ms: first ms %.0f; others: other bits;"
+      "expansions: expansions/F %.2f; rounds; apart: from Serial, mean %.1e; most: max %.1e;"
+      "mean: error mean %.1e; max %.1e; device; note");
+  if (meshes.files.empty() && meshes.sizes.empty()) meshes.sizes = {50000, 1000000};
+  const auto options = by_accuracy(accuracy);
+  meshes.each([&](const Surface& surface, const std::vector<Truth>& truths) {
+    for (const Work& work : {Work{1, false}, Work{many, false}, Work{batch, true}}) {
+      if (work.sources == 0 || (work.batch && surface.positions.size() > batch_vertices)) continue;
+      // A driver does not survive a fork: only the child may meet it.
+      const auto add = [&](const std::string& name, const auto& executor) {
+        table.measure({{"mesh", surface.name},
+                       {"vertices", surface.positions.size()},
+                       {"work", work.name()},
+                       {"executor", name}},
+                      arguments.limit,
+                      [&] { return measure(surface, truths, work, executor, options, effort); });
+      };
+      for (const int n : threads) add("OpenMP, " + std::to_string(n), OpenMP{.threads = n});
+#ifdef PLEXWAY_HAS_GL
+      if (gl) add("GL", plexway::GL{.device = device});
+#endif
+    }
+  });
 }
-const Command command("executors", "several threads beside one: fields, batches, chunks, sizes",
-                      run);
+const Command command("executors", "threads and graphics processors beside one serial thread", run);
 
 }  // namespace bench::executors

@@ -22,23 +22,11 @@ namespace bench {
 
 // ---- Rows ----
 
-Value::Value(double number) : kind_(Kind::real), real_(number) {}
-Value::Value(std::int64_t number) : kind_(Kind::whole), whole_(number) {}
-Value::Value(std::string text) : kind_(Kind::text), text_(std::move(text)) {}
-Value::Value(const char* text) : kind_(Kind::text), text_(text) {}
-
 double Value::number() const {
-  if (kind_ == Kind::whole) return static_cast<double>(whole_);
-  return kind_ == Kind::real ? real_ : std::numeric_limits<double>::quiet_NaN();
+  if (const auto* whole = std::get_if<std::int64_t>(&value_)) return static_cast<double>(*whole);
+  const auto* real = std::get_if<double>(&value_);
+  return real != nullptr ? *real : std::numeric_limits<double>::quiet_NaN();
 }
-
-Row::Row() = default;
-Row::Row(std::initializer_list<Cell> cells) : cells_(cells) {}
-Row::Row(const Row&) = default;
-Row::Row(Row&&) noexcept = default;
-Row& Row::operator=(const Row&) = default;
-Row& Row::operator=(Row&&) noexcept = default;
-Row::~Row() = default;
 
 Value& Row::operator[](std::string_view key) {
   for (Cell& cell : cells_)
@@ -61,11 +49,13 @@ using Json = nlohmann::ordered_json;
 
 Json json_of(const Row& row) {
   Json json = Json::object();
-  for (const auto& [key, value] : row.cells()) {
-    if (value.kind() == Value::Kind::real) json[key] = value.number();
-    if (value.kind() == Value::Kind::whole) json[key] = value.whole();
-    if (value.kind() == Value::Kind::text) json[key] = value.text();
-  }
+  for (const auto& cell : row.cells())
+    std::visit(
+        [&](const auto& value) {
+          if constexpr (!std::is_same_v<decltype(value), const std::monostate&>)
+            json[cell.first] = value;
+        },
+        cell.second.get());
   return json;
 }
 
@@ -184,9 +174,8 @@ Table::Table(std::string_view columns) {
 Row& Table::measure(Row head, double limit, const std::function<Row()>& work) {
   std::string name;
   for (const auto& [key, value] : head.cells())
-    name +=
-        (name.empty() ? "" : ", ") +
-        (value.kind() == Value::Kind::text ? value.text() : key + ' ' + written(value.number()));
+    name += (name.empty() ? "" : ", ") +
+            (value.is_text() ? value.text() : key + ' ' + written(value.number()));
   if (!name.empty()) std::cerr << name << std::endl;
   rows_.push_back(std::move(head.update(isolated(limit, work))));
   return rows_.back();
@@ -204,7 +193,7 @@ std::string Table::markdown() const {
     return std::string(std::any_of(rows_.begin(), rows_.end(),
                                    [&](const Row& row) {
                                      const Value* value = row.find(column.key);
-                                     return value != nullptr && value->kind() == Value::Kind::text;
+                                     return value != nullptr && value->is_text();
                                    })
                            ? "---"
                            : "---:");
@@ -212,9 +201,10 @@ std::string Table::markdown() const {
   for (const Row& row : rows_)
     line([&](const Column& column) {
       const Value* value = row.find(column.key);
-      if (value == nullptr || value->kind() == Value::Kind::none) return std::string();
-      if (value->kind() == Value::Kind::text) return value->text();
-      if (value->kind() == Value::Kind::whole) return std::to_string(value->whole());
+      if (value == nullptr || value->get().index() == 0) return std::string();
+      if (value->is_text()) return value->text();
+      if (const auto* whole = std::get_if<std::int64_t>(&value->get()))
+        return std::to_string(*whole);
       std::array<char, 64> number{};
       std::snprintf(number.data(), number.size(), column.format.c_str(), value->number());
       return std::string(number.data());

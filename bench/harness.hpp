@@ -23,39 +23,29 @@ namespace bench {
 /// A cell of a table: nothing, a number or text.
 class Value {
  public:
-  enum class Kind { none, real, whole, text };
   Value() = default;
-  Value(double number);
-  Value(std::int64_t number);
-  Value(std::string text);
-  Value(const char* text);
+  Value(double number) : value_(number) {}
+  Value(std::string text) : value_(std::move(text)) {}
+  Value(const char* text) : value_(text) {}
   template <std::integral T>
-  Value(T number) : Value(static_cast<std::int64_t>(number)) {}
+  Value(T number) : value_(static_cast<std::int64_t>(number)) {}
 
-  [[nodiscard]] Kind kind() const { return kind_; }
-  [[nodiscard]] std::int64_t whole() const { return whole_; }
+  [[nodiscard]] bool is_text() const { return std::holds_alternative<std::string>(value_); }
+  [[nodiscard]] const std::string& text() const { return std::get<std::string>(value_); }
   /// NaN for what is none.
   [[nodiscard]] double number() const;
-  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] const auto& get() const { return value_; }
 
  private:
-  Kind kind_ = Kind::none;
-  std::int64_t whole_ = 0;
-  double real_ = 0;
-  std::string text_;
+  std::variant<std::monostate, double, std::int64_t, std::string> value_;
 };
 
 /// Values by their keys, in the order in which they came.
 class Row {
  public:
   using Cell = std::pair<std::string, Value>;
-  Row();
-  Row(std::initializer_list<Cell> cells);
-  Row(const Row&);
-  Row(Row&&) noexcept;
-  Row& operator=(const Row&);
-  Row& operator=(Row&&) noexcept;
-  ~Row();
+  Row() = default;
+  Row(std::initializer_list<Cell> cells) : cells_(cells) {}
 
   Value& operator[](std::string_view key);
   /// Null where there is none.

@@ -83,7 +83,6 @@ double median(std::vector<double> values) {
 void Effort::add_options(Arguments& arguments) {
   arguments.positive("--sources", &sources, "Sources to rotate");
   arguments.positive("--repeats", &repeats, "Solves from each source");
-  arguments.option("--warm", &warm, "An untimed solve before each timed one");
   arguments.option("--processor", &processor, "The processor's time instead of the clock's");
   arguments.positive("--budget", &budget, "Seconds after which a row ends early");
 }
@@ -96,10 +95,7 @@ Times take_turns(std::span<const Index> sources, const Effort& effort, const Sol
   };
   const auto turn = [&](std::size_t i) {
     const std::size_t ahead = (i + sources.size() / 2) % sources.size();
-    const std::size_t other = (i + sources.size() / 3) % sources.size();
-    if (effort.warm) first(sources[other]);
     a.push_back(timed([&] { first(sources[i]); }));
-    if (effort.warm) second(sources[other]);
     b.push_back(timed([&] { second(sources[ahead]); }));
     ratios.push_back(b.back() / a.back());
     return a.back() + b.back();

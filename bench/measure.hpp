@@ -70,9 +70,6 @@ struct Effort {
   std::size_t sources = 16;
   std::size_t repeats = 3;
   double budget = 20;
-  /// An untimed solve before each timed one: caches then hold the solver's own data, as when one
-  /// field after another is computed, rather than the other solver's.
-  bool warm = false;
   /// Times are the processor's: for one thread on a machine that others use too.
   bool processor = false;
 

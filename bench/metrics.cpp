@@ -102,18 +102,15 @@ std::vector<Case> cases(const samples::HalvedSquare& square) {
 void run(Arguments& arguments) {
   std::vector<Index> cells = {20, 50, 100, 200};
   double shake = 0.35;
-  bool twice = false;
   arguments.option("--cells", &cells, "Cells a side, even numbers");
   arguments.option("--shake", &shake, "Vertices are moved by so many cells");
-  arguments.option("--double", &twice, "Double instead of float");
   Table& table = arguments.table(
       "law: metric; sides: shared edges; vertices; y: source at y; violated;"
       "mean: error mean %.1e; max %.1e; below: most below %.1e; ns: ns/V %.0f");
   for (const Index n : cells) {
     const samples::HalvedSquare square(n, shake);
     for (const Case& one : cases(square))
-      for (const double y : {0.25, -0.25})
-        table.add(twice ? measure<double>(square, one, y) : measure<float>(square, one, y));
+      for (const double y : {0.25, -0.25}) table.add(measure<float>(square, one, y));
   }
 }
 const Command command("metrics", "metrics on a square, against closed forms", run);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "data/mixed_pieces.hpp"
 #include "solver.hpp"
@@ -79,12 +78,6 @@ class Fields {
   std::size_t repeats_;
 };
 
-std::string text_of(double number) {
-  std::ostringstream text;
-  text << number;
-  return text.str();
-}
-
 void run(Arguments& arguments) {
   using namespace samples;
   std::size_t n = 40, slabs = 20, up = 0, repeats = 0;
@@ -109,7 +102,7 @@ void run(Arguments& arguments) {
   const double cell = 1. / static_cast<double>(n);
   Fields fields(table, repeats);
   for (const double c : speeds) {
-    const std::string at = ", c = " + text_of(c);
+    const std::string at = ", c = " + std::to_string(c).substr(0, 3);
     if (asked("block")) {
       Domain domain;
       const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, n), 1);

@@ -18,35 +18,6 @@ bin=$1/bin
 out=$2
 data=${3:-}
 samples=$(dirname "$0")/../data
-
-if [ "${QUICK:-0}" = 1 ]; then
-  effort="--sources 3 --repeats 1 --budget 1 --limit 60"
-  exact="--exact-limit 2000"
-  scale="--sizes 5000,20000 $effort"
-  triangulation="--sizes 20000"
-  build="--sizes 20000 --repeats 1"
-  corners="--most 100 --seeds 1"
-  metrics="--cells 20,50"
-  curves="--cells 30 --turns 1"
-  solid_sizes="--sizes 8 --sources 2 --repeats 1 --budget 1"
-  gl="--sizes 10000 --batch 8 --repeats 1"
-  wires="--size 0.1 --sources 2 --repeats 1 --budget 1"
-  teams="--vertices 20000 --batch 8 --batch-vertices 5000 --repeats 1 --sizes 5000 --chunks 128"
-else
-  effort="--sources 16 --repeats 3"
-  exact=""
-  scale=""
-  triangulation=""
-  build=""
-  corners=
-  metrics=
-  curves=
-  solid_sizes="--sizes 12,26,70"
-  wires=""
-  teams=""
-  gl="--sizes 50000,1000000"
-fi
-
 mkdir -p "$out"
 if [ -n "$data" ]; then
   set -- "$data"/*.obj
@@ -58,12 +29,18 @@ if [ ! -e "$1" ]; then
   exit 3
 fi
 
-# run NAME PROGRAM ARGUMENTS...: the JSON is the measurement, the Markdown a view of it.
+# run NAME "OPTIONS" "OPTIONS IF QUICK" [FILES...]: the JSON is the measurement, the Markdown a view
+# of it. Options are words of their own.
+# shellcheck disable=SC2086
 run() {
   name=$1
-  shift
+  options=$2
+  [ "${QUICK:-0}" != 1 ] || options=$3
+  shift 3
   echo "== $name" >&2
-  "$@" --markdown "$out/$name.md" --json > "$out/$name.json"
+  program=$bin/bench
+  [ "$name" != peers ] || [ ! -x "$bin/bench_cgal" ] || program=$bin/bench_cgal
+  "$program" "${name%%-*}" "$@" $options --markdown "$out/$name.md" --json > "$out/$name.json"
 }
 
 cxx=$(sed -n 's/^CMAKE_CXX_COMPILER:[^=]*=//p' "$bin/../CMakeCache.txt")
@@ -78,40 +55,29 @@ cxx=$(sed -n 's/^CMAKE_CXX_COMPILER:[^=]*=//p' "$bin/../CMakeCache.txt")
   echo "load at start: $(cut -d ' ' -f 1 /proc/loadavg 2>/dev/null)"
 } > "$out/machine.txt"
 
-peers=$bin/bench_cgal
-[ -x "$peers" ] || peers=$bin/bench
-# The arguments in $effort and its like are words of their own.
-# shellcheck disable=SC2086
-{
-  run peers "$peers" peers "$@" $effort $exact
-  run policy "$bin/bench" policy "$@" $effort
-  run triangulation "$bin/bench" triangulation "$@" $triangulation $effort
-  run windows "$bin/bench" windows "$@" $effort
-  run window_sources "$bin/bench" window_sources "$@" --sources 40
-  run window_refinement "$bin/bench" window_refinement
-  run build "$bin/bench" build "$@" $build
-  [ -z "$data" ] || run parity "$bin/bench" parity "$@"
-  run corners "$bin/bench" corners $corners
-  run dimensions "$bin/bench" dimensions
-  run random_plans "$bin/bench" random_plans
-  run metrics "$bin/bench" metrics $metrics
-  run curves "$bin/bench" curves $curves
-  # Two good scans, cut into four until they have a million vertices; otherwise the sphere alone.
-  set --
-  for scan in bunny armadillo; do
-    [ ! -e "$data/$scan.obj" ] || set -- "$@" "$data/$scan.obj"
-  done
-  run scale "$bin/bench" scale "$@" $scale
-  run scale_shuffled "$bin/bench" scale --shuffle $scale
-  run refinement "$bin/bench" refinement --parts 100,400,800
-  run strips "$bin/bench" strips
-  solids=
-  [ -z "$data" ] || [ ! -d "$data/../solids" ] || solids=$data/../solids
-  run solids "$bin/bench" solids $solids $solid_sizes
-  run wireframes "$bin/bench" wireframes $wires
-  run executors "$bin/bench" executors $teams
-  # Only where a device is found.
-  ! "$bin/plexway" info --devices 2>/dev/null | grep -q '^gl [0-9]' ||
-    run gl "$bin/bench" gl $gl
-}
+few="--sources 2 --repeats 1 --budget 1"
+solids=
+[ -z "$data" ] || [ ! -d "$data/../solids" ] || solids=$data/../solids
+run peers "--sources 16" "$few --limit 60 --exact-limit 2000" "$@"
+run surfaces "--triangles input,delaunay,refined" "$few" "$@"
+run surfaces-windows "--compared 40 --random --by fast,accurate" "$few --compared 2" "$@"
+run surfaces-labels "--by fast,plain,centroid,tuned,published,upper_bound,fifo,priority --against fast" \
+  "$few --by fast,plain" "$@"
+run surfaces-made "--make bumpy:50000,bumpy:400000,bumpy:1000000,wavy:500000 --triangles input,delaunay" \
+  "$few --make bumpy:5000,wavy:5000"
+run surfaces-torus "--make torus:800,torus:3200,torus:12800,torus:51200,torus:204800 --compared 3 --by fast,accurate" \
+  "$few --make torus:800 --compared 1"
+run surfaces-flat "--make corners:50,corners:400,strip:1000,strip:100000" "$few --make corners:50"
+run executors "" "--sizes 5000 --repeats 1 --batch 4" "$@"
+run build "" "--sizes 20000 --repeats 1" "$@"
+run convergence "" "--only cube"
+run dimensions "" "--draws 2"
+run random_plans "" "--plans 2"
+run metrics "" "--cells 20,50"
+run curves "" "--cells 30 --turns 1"
+run mixed "" "--cells 6"
+run paths "" "--bounded"
+run solids "--sizes 12,26,70" "--sizes 8 $few" $solids
+run wireframes "" "--size 0.1 $few"
+run clouds "--generated 100000" "--generated 2000 $few"
 echo "$out: $(cd "$out" && ls | tr '\n' ' ')"

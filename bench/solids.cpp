@@ -4,9 +4,6 @@
 #include <cmath>
 #include <fstream>
 
-#ifdef PLEXWAY_HAS_GL
-#include <plexway/executors/gl.hpp>
-#endif
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
 #include <plexway/boost_graph/dijkstra.hpp>
 #endif
@@ -112,31 +109,8 @@ Solid generated(Index n, bool notched, bool shuffled) {
   return s;
 }
 
-#ifdef PLEXWAY_HAS_GL
-/// Time on the GL device, and how far its distances are from the serial executor's (mean, worst).
-void measure_gl(const plexway::TetMesh<float>& mesh, const std::vector<Index>& sources,
-                const Effort& effort, Row& row) {
-  Solver<plexway::TetMesh<float>, plexway::GL> there(mesh);
-  Solver here(mesh);
-  Apart apart;
-  double time = 0;
-  for (const Index source : sources) {
-    here(source);
-    double least = 1e9;
-    for (std::size_t n = 0; n <= effort.repeats; ++n)
-      least = std::min(least, seconds([&] { there(source); }));
-    time += least;
-    apart.add(here.distance(), there.distance());
-  }
-  row["gl_ns_per_vertex"] = 1e9 * time / static_cast<double>(sources.size() * mesh.vertex_count());
-  row["gl_apart"] = apart.mean();
-  row["gl_apart_max"] = apart.most;
-}
-#endif
-
 template <class Real>
-Row measure(const Solid& solid, const Effort& effort, const plexway::PropagateOptions& options,
-            [[maybe_unused]] bool gl) {
+Row measure(const Solid& solid, const Effort& effort) {
   const double vertices = static_cast<double>(solid.positions.size());
   const double tets = static_cast<double>(solid.tets.size());
   Row row;
@@ -145,7 +119,7 @@ Row measure(const Solid& solid, const Effort& effort, const plexway::PropagateOp
       1e9 / tets * seconds([&] {
         mesh = std::make_unique<plexway::TetMesh<Real>>(solid.positions, solid.tets);
       });
-  Solver solver(*mesh, options);
+  Solver solver(*mesh);
   std::vector<Index> sources;
   for (std::size_t i = 0; i < effort.sources; ++i)
     sources.push_back(static_cast<Index>((i * 2654435761u) % solid.positions.size()));
@@ -165,10 +139,6 @@ Row measure(const Solid& solid, const Effort& effort, const plexway::PropagateOp
   row["dijkstra_ns_per_vertex"] = 1e9 * times.first / vertices;
   row["ratio"] = times.ratio;
 #endif
-#ifdef PLEXWAY_HAS_GL
-  if constexpr (sizeof(Real) == sizeof(float))
-    if (gl) measure_gl(*mesh, sources, effort, row);
-#endif
   Errors errors;
   double updates = 0;
   for (const Truth& truth : solid.truths) {
@@ -187,35 +157,26 @@ Row measure(const Solid& solid, const Effort& effort, const plexway::PropagateOp
 }
 
 void run(Arguments& arguments) {
-  std::string truth, policy = "saddles";
+  std::string truth;
   std::vector<Index> sizes = {12, 26, 44, 70};
   Effort effort{6, 2, 20};
-  bool single = false, gl = false;
+  bool single = false;
   arguments.option("TRUTH", &truth, "Folder of .node, .ele and exact answers");
   arguments.option("--sizes", &sizes, "Cubes along a side of the generated solids");
   effort.add_options(arguments);
   arguments.add_limit();
-  arguments.option("--policy", &policy, "Of labels", {"saddles", "centroid", "upper_bound"});
   arguments.option("--float", &single, "Float instead of double");
-#ifdef PLEXWAY_HAS_GL
-  arguments.option("--gl", &gl, "With --float: also on the GL device, beside the serial executor");
-#endif
   Table& table = arguments.table(
       "mesh; tets; build_ns_per_tet: build ns/T %.0f; ns_per_vertex: solve ns/V %.0f;"
       "ns_per_tet: ns/T %.0f; dijkstra_ns_per_vertex: Dijkstra ns/V %.0f; ratio %.2f;"
-      "gl_ns_per_vertex: GL ns/V %.0f; gl_apart: GL apart mean %.1e; gl_apart_max: max %.1e;"
       "mean: error mean %.1e; p99 %.1e; max %.1e; below: most below %.1e;"
       "updates_per_tet: updates/T %.2f; mesh_bytes_per_tet: mesh bytes/T %.0f;"
       "bytes_per_tet: with workspace %.0f; note");
-  plexway::PropagateOptions options;
-  if (policy == "centroid") options.visibility = plexway::Visibility::centroid;
-  if (policy == "upper_bound") options.visibility = plexway::Visibility::upper_bound;
   const auto on = [&](const auto& make) {
     table.measure({}, arguments.limit, [&] {
       const Solid solid = make();
       return Row{{"mesh", solid.name}, {"tets", solid.tets.size()}}.update(
-          single ? measure<float>(solid, effort, options, gl)
-                 : measure<double>(solid, effort, options, gl));
+          single ? measure<float>(solid, effort) : measure<double>(solid, effort));
     });
   };
   std::vector<std::string> names;

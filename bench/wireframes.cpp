@@ -84,11 +84,9 @@ Row measure(const Wires& wires, const Effort& effort) {
 void run(Arguments& arguments) {
   Effort effort{8, 2, 20};
   double size = 1;
-  bool twice = false;
   effort.add_options(arguments);
   arguments.option("--size", &size, "Points along each side, in proportion");
   arguments.add_limit();
-  arguments.option("--double", &twice, "Double instead of float");
   Table& table = arguments.table(
       "wireframe; vertices; edges; build_ns_per_vertex: build ns/V %.0f;"
       "ns_per_vertex: solve ns/V %.1f; documented_ns_per_vertex: Dijkstra ns/V %.1f; ratio %.2f;"
@@ -113,9 +111,7 @@ void run(Arguments& arguments) {
     table.measure({{"wireframe", wires.name},
                    {"vertices", wires.positions.size()},
                    {"edges", wires.edges.size()}},
-                  arguments.limit, [&] {
-                    return twice ? measure<double>(wires, effort) : measure<float>(wires, effort);
-                  });
+                  arguments.limit, [&] { return measure<float>(wires, effort); });
   }
 }
 const Command command("wireframes", "wireframes against Boost's Dijkstra", run);

@@ -107,26 +107,6 @@ def of_python(python):
     ]
 
 
-# Built by the user: NAME of --with NAME=PATH and of PLEXWAY_PEER_NAME=PATH, the adapter, what PATH is.
-BUILT = {
-    "vtp": ("VTP", "vtp.py", "exact (Qin et al. 2016)", "the program"),
-    "parallel_vtp": ("parallel VTP", "parallel_vtp.py", "exact (Du et al. 2021)", "the program"),
-    "dgg": ("DGG", "dgg.py", "discrete geodesic graph (Adikusuma, Fang, He 2020)",
-            "the folder of DGG_Precompute and DGG_Solution"),
-}
-
-
-def built(paths, python):
-    found = []
-    for key, (name, adapter, method, what) in BUILT.items():
-        path = paths.get(key) or os.environ.get("PLEXWAY_PEER_" + key.upper())
-        missing = "" if path and os.path.exists(path) else \
-            f"{path} is not there" if path else f"--with {key}=PATH or PLEXWAY_PEER_{key.upper()} is not given: {what}"
-        found.append(Peer(name, method, "its authors' source", {"surface": "obj"},
-                          [python, os.path.join(ADAPTERS, adapter), path or ""], missing))
-    return found
-
-
 def spoken(given):
     """NAME[:FORMAT]=COMMAND: programs that speak the protocol themselves. A solid's format is medit, others are surfaces'."""
     found = []
@@ -143,5 +123,5 @@ def spoken(given):
     return found
 
 
-def everything(tool, python, paths, given):
-    return [*ours(tool), *compiled(tool), *debian(python), *of_python(python), *built(paths, python), *spoken(given)]
+def everything(tool, python, given):
+    return [*ours(tool), *compiled(tool), *debian(python), *of_python(python), *spoken(given)]

@@ -1,12 +1,6 @@
-"""What is said of the rows: tables and plots."""
-import math
-import os
-import sys
+"""What is said of the rows: tables."""
 
-sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
-from log_plot import COLOURS, MARKS, LogPanel, decades, mark, picture, text  # noqa: E402
-
-LEAST = 1e-9  # what is exact is drawn here, and counts as equal
+LEAST = 1e-9  # smaller errors count as equal
 SLACK = 1.1  # less is noise
 
 
@@ -100,36 +94,6 @@ def better(rows, ours):
         if said:
             out.append(f"* **{name}**: " + "; ".join(said))
     return "\n".join(out) + "\n" if out else "None is.\n"
-
-
-def plot(rows, key, title, x_title):
-    """Mean error over time, a mark for each program and mesh."""
-    def along(row):
-        value = row.get(key)
-        return None if value is None else 1e9 * value / row["vertices"]
-    names = list(dict.fromkeys(row["peer"] for row in rows))
-    points = [(row["peer"], along(row), max(row["mean"], LEAST)) for row in rows
-              if "failure" not in row and "mean" in row and along(row)]
-    if not points:
-        return None
-    left, top, width, height = 70, 46, 620, 420
-    xs = [math.log10(x) for _, x, _ in points]
-    panel = LogPanel(left, top, width, height, (min(xs) - 0.1, max(xs) + 0.1), decades([y for _, _, y in points]), LEAST)
-    out = []
-    panel.frame(title, x_title, (1, 3), out)
-    key_y = top + 10
-    for i, name in enumerate(names):
-        some = [panel.at(x, y) for peer, x, y in points if peer == name]
-        if not some:
-            continue
-        ours = name.startswith("plexway")
-        colour, kind = COLOURS[i % len(COLOURS)], MARKS[(i // len(COLOURS) + i) % len(MARKS)]
-        out += [mark(kind, x, y, colour, hollow=not ours) for x, y in some]
-        out.append(mark(kind, left + width + 22, key_y, colour, hollow=not ours))
-        out.append(text(left + width + 34, key_y + 4, name, "start"))
-        key_y += 20
-    out.append(text(16, top + height / 2, "mean relative error", extra=f' transform="rotate(-90 16 {top + height / 2:.0f})"'))
-    return picture(left + width + 210, top + height + 60, out)
 
 
 def replace_between(page, begin, end, what):

@@ -122,64 +122,13 @@ class Run(unittest.TestCase):
         self.assertNotIn("old", words)
         for name in FAKES:
             self.assertIn(f"| fake {name} |", words)
-        with open(os.path.join(os.path.dirname(self.page), "peers_first.svg"), encoding="utf-8") as file:
-            self.assertIn("</svg>", file.read())
         with self.assertRaises(ValueError):
             page.replace_between("no marks", "<!-- measured -->", "<!-- end of measured -->", "")
 
 
-# Programs that take the words of those that users build, and write the same files: distances of a flat convex sheet.
-STAND_IN = """#!{python}
-import os, sys
-import numpy as np
-words = sys.argv[1:]
-def after(key): return words[words.index(key) + 1]
-def distances(name, source):
-    points = np.array([line.split()[1:] for line in open(name) if line.startswith('v ')], float)
-    return np.linalg.norm(points - points[int(source)], axis=1)
-def save(name, row):
-    with open(name, 'w') as file:
-        file.write(''.join('%.20g\\n' % d for d in row) + '\\n')
-{what}
-"""
-STAND_INS = {
-    "VTP": "save(after('-o'), distances(after('-m'), after('-s')))",
-    "PVTP": """assert after('-alg') == '1' and after('-np') == '1' and '-o' in words
-name = after('-m')
-save(name[:-4] + '_source' + after('-s') + '_Parallel_FWP_VTP_result.txt', distances(name, after('-s')))""",
-    "DGG_Precompute": """method, mesh, error, threads = words
-assert method == 'f' and threads == '1'
-open(mesh[:-4] + '_FD%.10f_c5.binary' % float(error), 'w').write('graph')""",
-    "DGG_Solution": """method, mesh, graph, source, out = words
-assert method == 'SSAD' and open(graph).read() == 'graph'
-save(out, distances(mesh, source))""",
-}
-
-
-class Built(unittest.TestCase):
-    def test_stand_ins_of_what_users_build(self):
-        with tempfile.TemporaryDirectory() as folder:
-            mesh = sheet(folder)
-            for name, what in STAND_INS.items():
-                program = os.path.join(folder, name)
-                with open(program, "w", encoding="utf-8") as file:
-                    file.write(STAND_IN.format(python=sys.executable, what=what))
-                os.chmod(program, 0o755)
-            words = [sys.executable, os.path.join(HERE, "run"), BUILD, os.path.join(folder, "out"), mesh, "--no-grids",
-                     "--turns", "1", "--sources", "2", "--only", "VTP", "--only", "DGG", "--with", f"vtp={folder}/VTP",
-                     "--with", f"parallel_vtp={folder}/PVTP"]
-            subprocess.run(words, check=True, capture_output=True, env={**os.environ, "PLEXWAY_PEER_DGG": folder})
-            with open(os.path.join(folder, "out", "peers.json"), encoding="utf-8") as file:
-                rows = json.load(file)["rows"]
-        self.assertEqual([row["peer"] for row in rows], ["VTP", "parallel VTP", "DGG"])
-        for row in rows:
-            self.assertNotIn("failure", row, row)
-            self.assertLess(row["worst"], 1e-12)
-            self.assertEqual((row["wrong"], row["compared"]), (0, 1))
-
+class CommandLine(unittest.TestCase):
     def test_a_wrong_command_line_is_told(self):
-        for words, said in ((["--with", "nothing=here"], "--with nothing=here: NAME=PATH"),
-                            (["--peer", "x:stl=y"], "--peer x:stl=y"), (["--thingi10k", "/none"], "no meshes in it"),
+        for words, said in ((["--peer", "x:stl=y"], "--peer x:stl=y"),
                             (["--truth-by", "nobody"], "no peer that is here is called nobody")):
             with tempfile.TemporaryDirectory() as folder:
                 done = subprocess.run([sys.executable, os.path.join(HERE, "run"), BUILD, folder, *words],

@@ -1,4 +1,4 @@
-"""What Python costs beside C++: a call, and building from arrays. (Rows on threads: bench/python_threads.py.)
+"""What Python costs beside C++: a call, and building from arrays.
 
     PYTHONPATH=build/python python3 python/bench/overhead.py [FILE]
 

@@ -3,7 +3,7 @@
 
 #include <plexway/solve.hpp>
 
-#include "bench/solid_domains.hpp"
+#include "tetgen/solid_domains.hpp"
 
 namespace convergence_test {
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "bench/solid_domains.hpp"
+#include "tetgen/solid_domains.hpp"
 
 namespace obstacles_test {
 

@@ -32,14 +32,6 @@ def read_medit(name):
     return points, cells.reshape(-1, 5)[:, :4] - 1
 
 
-def read_text(name, count):
-    """Distances, a number each; some programs say 'inf' or a huge number where no path leads."""
-    row = np.loadtxt(name, ndmin=1)
-    if len(row) != count:
-        sys.exit(f"{len(row)} distances for {count} vertices")
-    return np.where(row > 1e90, np.inf, row)
-
-
 def write(out, rows):
     """A row for each source, as plain doubles, each written when it is there."""
     with open(out, "wb") as file:

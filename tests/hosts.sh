@@ -3,7 +3,7 @@
 # a cable of their own: do they get the bits of one process? Needs root and Open MPI; ends with 77
 # where the machine does not allow it. Touches nothing outside its namespaces.
 #
-#   bench/hosts.sh BUILD INPUT [options of distance]
+#   tests/hosts.sh BUILD INPUT [options of distance]
 set -eu
 build=$(cd "$1" && pwd) input=$(realpath "$2")
 shift 2
