@@ -169,7 +169,7 @@ void run(Arguments& arguments) {
       if (k > 0) domain.weld(pieces[k - 1], pieces[k]);
     }
     std::string name = "layers";
-    for (const double v : layers.v) name += " " + text_of(v);
+    for (const double v : layers.v) name += " " + std::to_string(v).substr(0, 3);
     for (const double z : {.2, layers.z[0] - cell, layers.z[0] + cell})
       fields.measure(name, domain, {.4, .3, z}, [&](const Position& p, const Position& q, Index) {
         return layers.time(p, q);
