@@ -12,7 +12,7 @@
 /// themselves are asked, are in domain/support.hpp; what files, builds and shapes are, in
 /// any/support.hpp.
 // Everything that can be solved, and everything that is refused and why, is decided in these three
-// and nowhere else; tests/house/one_table_test.cpp looks for other places.
+// and nowhere else.
 namespace plexway {
 
 /// What a field starts from, as far as it matters here (source/source.hpp).
