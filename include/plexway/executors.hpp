@@ -35,35 +35,30 @@ struct Serial {
 ///
 /// The step is that of Serial. Surfaces, clouds, solids and wireframes are cut into pieces, which
 /// exchange labels or windows over their borders; pieces of a mixed domain, as they are, take their
-/// turns at once, with Serial's bits; elsewhere threads take the front in chunks, in rounds.
+/// turns at once, with Serial's bits; one field of a complex of any dimension is one thread's.
 /// Either way the result does not depend on the number of threads or on their timing: it is the
 /// same to the last bit, also where a propagation is cut short by max_expansions. Exact windows, a
 /// domain of a single piece and distances in wireframes have Serial's bits. Else it differs where
 /// the order of work decides, and is as accurate. The workspace is the one that Serial takes.
 ///
-/// Cost: on one thread 1.05 to 1.2 times that of Serial in pieces, up to 1.35 in rounds. Rounds
-/// wait for each other several times for each step of the front, so they want large domains with
-/// long fronts, and cores that nobody else wants. Many fields of one domain are best had by
-/// `solve_each`, which takes one thread a source. Memory in float, beyond Serial's: pieces of
-/// surfaces 130 to 150 bytes a triangle, of solids and wireframes 20, kept from solve to solve;
-/// rounds 8 bytes a simplex and 48 to 64 for each label that waits; in double about twice that.
+/// Cost: on one thread 1.05 to 1.2 times that of Serial in pieces, and more. Many fields of one
+/// domain are best had by `solve_each`, which takes one thread a source. Memory in float, beyond
+/// Serial's: pieces of surfaces 130 to 150 bytes a triangle, of solids and wireframes 20, kept from
+/// solve to solve; in double about twice that.
 ///
-/// Solving throws UsageError for less than one thread or an empty chunk, and NotBuiltError in a
+/// Solving throws UsageError for less than one thread, and NotBuiltError in a
 /// build without OpenMP. The progress callback is called by the calling thread.
 struct OpenMP {
   /// Its rows in the table of support.hpp.
   static constexpr ExecutorKind kind = ExecutorKind::openmp;
 
   int threads = 0;  ///< 0: as many as OpenMP would take (OMP_NUM_THREADS, or one a core)
-  /// In rounds: simplices that a thread takes at a time. Fronts up to this size are one thread's.
-  std::size_t chunk = 128;
   /// About so many simplices (vertices of wireframes) a piece. 0: by the domain, and a single piece
   /// where it is small (32,768) or pieces do not pay, which is the serial loop. Threads wait for
   /// each other once a superstep, some dozens to hundreds of times a solve. Another size gives
   /// other labels and merged windows, all of them as accurate. The first solve cuts the domain,
-  /// which takes about as long as a solve. Other domains go in rounds whatever this says. By
-  /// windows an order other than Schedule::dual_queue, and a solve that keeps its windows for
-  /// distances inside triangles, is one thread's.
+  /// which takes about as long as a solve. By windows an order other than Schedule::dual_queue, and
+  /// a solve that keeps its windows for distances inside triangles, is one thread's.
   std::size_t piece = 0;
   /// Null, or processes that share the pieces (executors/piece_ranks.hpp): piece p is that of rank
   /// p modulo their number, and `threads` are this one's. Each gets the whole field, the same bits

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <mutex>
 #include <span>
 #include <utility>
@@ -13,61 +12,19 @@
 
 #include <plexway/propagate/options.hpp>
 
-#include "executors/rounds.hpp"
 #include "executors/team.hpp"
-#include "propagate/endless.hpp"
 #include "propagate/read_out.hpp"
 #include "propagate/workspace_state.hpp"
 
 namespace plexway {
 
-/// A team does the work of a solve (alone.hpp: one thread does): what is waiting when the serial
-/// parts of a propagation are through is expanded in rounds.
+/// What a team does for a solve besides the propagation, which crews that derive from it share out.
 template <class Real, bool kLabels>
 class TeamCrew {
  public:
   TeamCrew(const Team& team, WorkspaceState<Real>& workspace, Real step, double unit,
            const PropagateOptions& options)
       : team_(team), workspace_(workspace), step_(step), unit_(unit), options_(options) {}
-
-  template <class Propagation, class Front>
-  void run(Propagation& propagation, Front& front, std::size_t simplices) const {
-    using Label = typename Front::Label;
-    const SimplexStore<Label, kLabels> store(workspace_.marks, front.labels(),
-                                             workspace_.source.data());
-    Rounds<Real, SimplexStore<Label, kLabels>> rounds(team_, workspace_.team, store, list(),
-                                                      simplices, step_, unit_, options_);
-    const auto spread = [&](bool last_resort) {
-      std::size_t added = 0;
-      front.drain([&](Index s) {
-        rounds.add(s, front.hinge(s), front.label(s), propagation.rule().distance(s),
-                   front.source(s));
-        ++added;
-      });
-      const std::size_t before = front.expansions(), most = endless_after(simplices);
-      const bool complete =
-          rounds.run([&](auto& hand) { return propagation.expander(hand, last_resort, rounds); },
-                     front.statistics(), most - std::min(before, most));
-      if (!complete && !rounds.out_of_budget())
-        check_end(before + rounds.done().expansions, simplices);
-      if (!complete) rounds.hand_over([](Index) {});
-      PropagateStatistics done = rounds.done();
-      done.updates -= std::min(added, done.updates);
-      front.account(done, !complete);
-    };
-    if constexpr (requires(Index t) { propagation.may_need_repair(t); })
-      propagation.run(spread, [&](const auto& look) {
-        search(
-            simplices,
-            [&](std::size_t t) { return propagation.may_need_repair(static_cast<Index>(t)); },
-            [&](std::size_t t) { look(static_cast<Index>(t)); });
-      });
-    else if constexpr (requires { propagation.run(spread, *this); })
-      propagation.run(spread,
-                      [&](std::size_t count, const auto& work) { team_.over(count, work); });
-    else
-      propagation.run(spread);
-  }
 
   template <class Work>
   void over(std::size_t count, const Work& work) const {
@@ -106,6 +63,21 @@ class TeamCrew {
   const PropagateOptions& options_;
 };
 
+/// Distances and whose they are, as numbers in the order of distances, then of sources. In double
+/// there is no room for both in one.
+template <class Real>
+struct OfferKey {
+  static constexpr bool ties_apart = sizeof(Real) == 8;
+  static constexpr std::uint64_t unreached = ~std::uint64_t{0};
+
+  static std::uint64_t of(float distance, Index source) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(distance + 0.F)} << 32 | source;
+  }
+  static Real distance(std::uint64_t key) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32));
+  }
+};
+
 /// Triangles offer distances to their vertices, which keep the least.
 template <class Real, bool kLabels, class Rule, class Front>
 void read_out_triangles(const Team& team, std::span<const TriangleRecord<Real>> triangles,
@@ -132,7 +104,7 @@ void read_out_triangles(const Team& team, std::span<const TriangleRecord<Real>> 
     offers([&](Index v, Real d, Index) { lower(distance[v], d); });
   } else if constexpr (!Key::ties_apart) {
     const std::size_t vertices = workspace.vertex.size();
-    std::uint64_t* const key = workspace.team.key.template reserve<std::uint64_t>(vertices);
+    std::uint64_t* const key = workspace.team.template reserve<std::uint64_t>(vertices);
     team.over(vertices, [&](std::size_t begin, std::size_t end) {
       std::fill(key + begin, key + end, Key::unreached);
     });

@@ -26,24 +26,12 @@ void drive(const Serial&, const D& domain, std::span<const PointSource>,
   solve(queue_for<Real>(options, workspace.front), Alone{});
 }
 
-template <bool kLabels, class D, class Real, class Solve>
-void drive_in_rounds(const OpenMP& executor, const D& domain, std::span<const PointSource> sources,
-                     const PropagateOptions& options, WorkspaceState<Real>& workspace,
-                     const Solve& solve) {
-  const Team team(executor);
-  check_ties(sources);
-  workspace.front.reserve(domain.simplex_count());
-  constexpr Real infinity = std::numeric_limits<Real>::infinity();
-  const ChosenQueue<Real> queue(workspace.front, infinity, false);
-  const TeamCrew<Real, kLabels> crew(team, workspace, step_of<Real>(options), domain.unit(),
-                                     options);
-  team.hold([&] { solve(queue, crew); });
-}
-
+/// Complexes of any dimension are one thread's; `solve_each` takes one a source.
 template <bool kLabels, class D, class Real, class Solve>
 void drive(const OpenMP& executor, const D& domain, std::span<const PointSource> sources,
            const PropagateOptions& options, WorkspaceState<Real>& workspace, const Solve& solve) {
-  drive_in_rounds<kLabels>(executor, domain, sources, options, workspace, solve);
+  const Team team(executor);  // refuses what makes no sense
+  drive<kLabels>(Serial{}, domain, sources, options, workspace, solve);
 }
 
 /// On surfaces a queue of its own for each order: the loop is short.

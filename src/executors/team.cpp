@@ -26,15 +26,13 @@ bool openmp_built() {
 #endif
 }
 
-Team::Team(const OpenMP& executor)
-    : size_(executor.threads), chunk_(executor.chunk), ranks_(executor.ranks) {
+Team::Team(const OpenMP& executor) : size_(executor.threads), ranks_(executor.ranks) {
   if (!openmp_built())
     throw NotBuiltError(
         "the executor OpenMP is not built in: rebuild plexway with a compiler that has OpenMP");
   constexpr int most = 1024;
   if (executor.threads < 0 || executor.threads > most)
     throw UsageError("the number of threads must be from 0 (all) to " + std::to_string(most));
-  if (executor.chunk == 0) throw UsageError("the chunk must be >= 1");
   if (size_ > 0) return;
 #if defined(PLEXWAY_TEAM_OF_THREADS)
   size_ = threads_for(0);

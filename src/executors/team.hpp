@@ -81,7 +81,6 @@ class Team {
 
   /// At most so many threads.
   [[nodiscard]] int size() const { return size_; }
-  [[nodiscard]] std::size_t chunk() const { return chunk_; }
   /// The processes that share pieces, or null, and which pieces are ours.
   [[nodiscard]] PieceRanks* ranks() const { return ranks_; }
   [[nodiscard]] Deal deal() const {
@@ -205,7 +204,6 @@ class Team {
   void run_guarded(const std::function<void(int, int)>& work) const;
 
   int size_;
-  std::size_t chunk_;
   PieceRanks* ranks_;
   mutable Held* held_ = nullptr;
   mutable bool alone_ = false;  ///< held, but by one thread

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <span>
 
@@ -7,13 +8,12 @@
 #include <plexway/propagate/options.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "executors/offers.hpp"
-
 namespace plexway {
 
 /// Throws UsageError for more sources than a team tells apart.
 inline void check_ties(std::span<const PointSource> sources) {
-  if (sources.size() >= OfferTie::limit) throw UsageError("too many sources");
+  constexpr std::size_t limit = std::size_t{1} << 29;
+  if (sources.size() >= limit) throw UsageError("too many sources");
 }
 
 /// The width of the limit in the unit inside, where `edge` is what counts as an edge.

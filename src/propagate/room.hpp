@@ -1,12 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <memory>
 #include <new>
 #include <type_traits>
-#include <vector>
 
 namespace plexway {
 
@@ -42,20 +40,6 @@ class Room {
   };
   std::unique_ptr<std::byte, Free> memory_;
   std::size_t bytes_ = 0;
-};
-
-/// What several threads need beyond what one does. Empty until they have run.
-struct TeamRooms {
-  Room key;                ///< a simplex: the least distance offered
-  Room tie;                ///< a simplex: which of equal offers
-  Room near, far, kept;    ///< offers that wait
-  std::vector<Room> hand;  ///< offers that a thread has not yet put there
-
-  [[nodiscard]] std::size_t bytes() const {
-    std::size_t sum = key.bytes() + tie.bytes() + near.bytes() + far.bytes() + kept.bytes();
-    for (const Room& room : hand) sum += room.bytes();
-    return sum + hand.capacity() * sizeof(Room);
-  }
 };
 
 }  // namespace plexway

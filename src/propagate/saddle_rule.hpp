@@ -77,10 +77,9 @@ class SaddleRule : public SaddlePoses<Real> {
     const std::size_t left = edge_before(in), right = edge_after(in);
     const Index over_left = t.across[left], over_right = t.across[right];
     Label own = front_.label(f);
-    if constexpr (requires { front_.narrow(f, own); })
-      if (may_narrow(t, in, own)) [[unlikely]]
-        own = narrow_by_neighbours(f, own,
-                                   [&](const Label& narrower) { front_.narrow(f, narrower); });
+    if (may_narrow(t, in, own)) [[unlikely]]
+      own =
+          narrow_by_neighbours(f, own, [&](const Label& narrower) { front_.narrow(f, narrower); });
     if (((over_left | over_right) & Across::special) || !vectorised_) [[unlikely]] {
       full(f, left);
       full(f, right);
@@ -105,7 +104,7 @@ class SaddleRule : public SaddlePoses<Real> {
         label = step.left_label();
       if (label.distance() < known_left) [[likely]] {
         front_.accept(l, kl, label, label.distance(), source);
-        if (front_.expands_soon()) prefetch(tl, kl);
+        prefetch(tl, kl);
       }
     }
     if (step.right_distance < known_right) {
@@ -118,17 +117,9 @@ class SaddleRule : public SaddlePoses<Real> {
         label = step.right_label();
       if (label.distance() < known_right) [[likely]] {
         front_.accept(r, kr, label, label.distance(), source);
-        if (front_.expands_soon()) prefetch(tr, kr);
+        prefetch(tr, kr);
       }
     }
-  }
-
-  /// For fronts that want all triangles of a round to have heard before any is expanded.
-  void narrow(Index f) const {
-    const Label& own = front_.label(f);
-    if (may_narrow(triangles_[f], front_.hinge(f), own))
-      narrow_by_neighbours(f, own,
-                           [&](const Label& narrower) { front_.narrow_later(f, narrower); });
   }
 
   /// May triangle t, come in by edge `in`, take tighter limits over (see narrow_limits)? The common

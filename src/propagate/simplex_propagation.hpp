@@ -80,29 +80,10 @@ class SimplexPropagation {
     } while (!front_.out_of_budget() && pass_vertices(over));
   }
 
-  /// Expands simplices for the front of a thread, in `rounds` that know how many updates were made.
-  template <class Other, class Rounds>
-  [[nodiscard]] auto expander(Other& front, bool, const Rounds& rounds) const {
-    return Expander<Other, Rounds>{*this, rule_.on(front), rounds};
-  }
   [[nodiscard]] const Rule& rule() const { return rule_; }
 
  private:
   static constexpr Index sides = N + 1;
-
-  template <class Other, class Rounds>
-  struct Expander {
-    const SimplexPropagation& propagation;
-    decltype(std::declval<const Rule&>().on(std::declval<Other&>())) rule;
-    const Rounds& rounds;
-
-    void operator()(Index s) {
-      propagation.limit(rule, rounds.updates());
-      propagation.expand(rule, s);
-    }
-    void far_ahead(Index s) const { rule.prefetch(s); }
-    void ahead(Index s) const { rule.prefetch_around(s); }
-  };
 
   void seed_vertex(Index vertex, Real sigma, Index number) {
     for (const Index c : domain_.corners_at(vertex))

@@ -76,36 +76,9 @@ class TrianglePropagation {
     } while (mend(revivals));
   }
 
-  /// Expands triangles for the front of a thread. `rounds.updates()` says how much was done so far.
-  template <class Other, class Rounds>
-  [[nodiscard]] auto expander(Other& front, bool last_resort, const Rounds& rounds) const {
-    return Expander<Other, Rounds>{*this, front, rule().on(front), rounds, last_resort};
-  }
   [[nodiscard]] const Rule& rule() const { return spread_.rule(); }
 
- private:
-  template <class Other, class Rounds>
-  struct Expander {
-    const TrianglePropagation& propagation;
-    Other& front;
-    decltype(std::declval<const Rule&>().on(std::declval<Other&>())) rule;
-    const Rounds& rounds;
-    bool last_resort;
-
-    void operator()(Index f) {
-      const auto& spread = propagation.spread_;
-      if (spread.refracts()) [[unlikely]]
-        spread.limit(rule, rounds.updates());
-      spread.expand(rule, front, f, last_resort,
-                    [this](Index g, std::size_t edge) { rule.cross(g, edge, last_resort); });
-    }
-    void narrow(Index f) const requires requires(const Rule& any) { any.narrow(f); }
-    { rule.narrow(f); }
-    void far_ahead(Index f) const { rule.prefetch(f); }
-    void ahead(Index f) const { rule.prefetch_around(f); }
-  };
-
- public:  // the parts of run, for those who do more in between or must not look at the whole
+  // the parts of run, for those who do more in between or must not look at the whole
   static bool last_resort(int revivals) { return revivals > 8; }
   /// Once none waits: true if some wait again.
   bool mend(int& revivals) {

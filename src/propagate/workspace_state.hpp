@@ -38,7 +38,7 @@ struct WorkspaceState {
   WindowMemory<Real> windows;  ///< on surfaces: accuracies but `fast`
   /// The queues.
   FrontStorage front;
-  TeamRooms team;                                 ///< for executors with several threads
+  Room team;                                      ///< for executors with several threads
   PieceMemory<Real> pieces;                       ///< likewise, on surfaces
   std::vector<Real> vertex;                       ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;               ///< its labels

@@ -124,7 +124,7 @@ TEST_CASE("a domain of one's own, in every cell of the table, by one thread") {
 
 TEST_CASE("a domain of one's own, in every cell of the table, by a team", "[threads]") {
   if (!openmp_built()) return;
-  const Count count = check_own(OpenMP{.threads = 2, .chunk = 8});
+  const Count count = check_own(OpenMP{.threads = 2});
   CHECK(count.yes + count.no == 4 * 7 * ways_count);
   CHECK(count.yes == 4 * 7 * 3 * 2 * 2);
 }

@@ -50,7 +50,7 @@ TEST_CASE("the table, by one thread") {
 
 TEST_CASE("the table, by a team", "[threads]") {
   if (!openmp_built()) return;
-  const Count count = check_table(OpenMP{.threads = 2, .chunk = 8});
+  const Count count = check_table(OpenMP{.threads = 2});
   CHECK(count.yes + count.no == cells);
   CHECK(count.yes == 2 * 622 + 12 + 8);
 }

@@ -57,7 +57,7 @@ std::vector<PointSource> random_sources(const Domain& domain, std::size_t count,
   return sources;
 }
 
-/// Chunks and pieces so small that several threads have something to do even here.
-inline OpenMP team(int threads) { return {.threads = threads, .chunk = 8, .piece = 64}; }
+/// Pieces so small that several threads have something to do even here.
+inline OpenMP team(int threads) { return {.threads = threads, .piece = 64}; }
 
 }  // namespace plexway::testing

@@ -229,10 +229,10 @@ TEST_CASE("the table of what is done besides solving") {
 TEST_CASE("the table of what is done besides solving, after a team", "[threads]") {
   if (!openmp_built()) return;
   Count count;
-#define PLEXWAY_CHECK(...)                                                             \
-  visit_scenes<__VA_ARGS__>([&](const auto& scene) {                                   \
-    INFO(scene.name);                                                                  \
-    check_fields(OpenMP{.threads = 2, .chunk = 8}, scene, Visibility::saddles, count); \
+#define PLEXWAY_CHECK(...)                                                 \
+  visit_scenes<__VA_ARGS__>([&](const auto& scene) {                       \
+    INFO(scene.name);                                                      \
+    check_fields(OpenMP{.threads = 2}, scene, Visibility::saddles, count); \
   });
   PLEXWAY_DOMAINS(PLEXWAY_CHECK)
 #undef PLEXWAY_CHECK

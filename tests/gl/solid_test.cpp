@@ -1,5 +1,5 @@
-// Solids on a GL device, by the literal step, against closed forms, exact answers and a team in
-// rounds: the same rounds, so on a device that rounds as the processor does the same bits.
+// Solids on a GL device, by the literal step, against closed forms and one thread, whose order of
+// work decides otherwise which of two paths a tetrahedron keeps.
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -10,7 +10,6 @@
 #include <plexway/solve.hpp>
 
 #include "gl/device.hpp"
-#include "gl/rounds.hpp"
 #include "propagate/solid_closed_forms.hpp"
 #include "with_accuracy.hpp"
 
@@ -20,18 +19,16 @@ namespace {
 
 using Sources = std::span<const PointSource>;
 
-std::vector<float> by_team(const TetMesh<float>& mesh, Sources sources) {
-  return solve_in_rounds(mesh, sources, by_labels()).distance;
+std::vector<float> by_one_thread(const TetMesh<float>& mesh, Sources sources) {
+  return solve(Serial{}, mesh, sources, by_labels()).distance;
 }
 
-void check_close(const gl::Context& context, const std::vector<float>& known,
-                 std::span<const float> found) {
+void check_close(const std::vector<float>& known, std::span<const float> found) {
   const Difference d = difference(known, found);
   CAPTURE(d.mean, d.max);
   CHECK(d.fits);
-  // Elsewhere rounding decides now and then which of two paths a tetrahedron keeps.
-  CHECK(d.mean <= (exact(context) ? 1e-9 : 1e-3));
-  CHECK(d.max <= (exact(context) ? 1.2e-7 : 4e-2));
+  CHECK(d.mean <= 1e-3);
+  CHECK(d.max <= 4e-2);
 }
 
 /// From `count` sources at once, some inside of tetrahedra.
@@ -46,16 +43,15 @@ std::vector<PointSource> some_sources(const Solid& s, std::size_t count, unsigne
   return sources;
 }
 
-void compare_with_team(const gl::Context& context, const Solid& s, std::size_t count,
-                       unsigned turns) {
+void compare_with_one_thread(const Solid& s, std::size_t count, unsigned turns) {
   const auto mesh = s.mesh<float>();
   GLWorkspace workspace;
   DistanceField<float> field;
   for (unsigned turn = 0; turn < turns; ++turn) {
     const auto sources = some_sources(s, count, turn);
-    const auto known = solve_in_rounds(mesh, Sources(sources), by_labels());
+    const auto known = solve(Serial{}, mesh, sources, by_labels());
     solve(GL{}, mesh, sources, {}, workspace, field);
-    check_close(context, known.distance, field.distance);
+    check_close(known.distance, field.distance);
     CHECK(field.complete);
     CHECK(field.statistics.reached_simplices == known.statistics.reached_simplices);
     if (count == 1) continue;
@@ -98,37 +94,36 @@ TEST_CASE("solids with closed forms on a device", "[gl]") {
   CHECK(mean < 9 * 2.5e-3);
 }
 
-TEST_CASE("solids on a device agree with a team in rounds", "[gl]") {
-  const auto context = device();
-  if (!context || !openmp_built()) return;
+TEST_CASE("solids on a device agree with one thread", "[gl]") {
+  if (!device()) return;
   for (const std::size_t count : {1u, 6u}) {
     CAPTURE(count);
-    compare_with_team(*context, solid_cube(6), count, 3);
-    compare_with_team(*context, l_shape(8), count, 3);
-    compare_with_team(*context, walled(8), count, 3);
-    compare_with_team(*context, edge_touch(6), count, 3);
-    compare_with_team(*context, vertex_touch(6), count, 3);
+    compare_with_one_thread(solid_cube(6), count, 3);
+    compare_with_one_thread(l_shape(8), count, 3);
+    compare_with_one_thread(walled(8), count, 3);
+    compare_with_one_thread(edge_touch(6), count, 3);
+    compare_with_one_thread(vertex_touch(6), count, 3);
   }
 }
 
 TEST_CASE("solids on a device: again and again, with little room at first", "[gl]") {
-  const auto context = device();
-  if (!context || !openmp_built()) return;
+  if (!device()) return;
   const Solid s = walled(8);
   const auto mesh = s.mesh<float>();
   const auto sources = some_sources(s, 3, 4);
-  const auto known = by_team(mesh, sources);
   GL narrow;
   narrow.queue = 16;
   GLWorkspace workspace, small;
   DistanceField<float> field;
+  solve(GL{}, mesh, sources, {}, workspace, field);
+  const auto known = field.distance;
   for (int n = 0; n < 30; ++n) {
     solve(GL{}, mesh, sources, {}, workspace, field);
-    check_close(*context, known, field.distance);
+    CHECK(field.distance == known);
   }
   solve(narrow, mesh, sources, {}, small, field);
   CHECK(small.growths() > 0);
-  check_close(*context, known, field.distance);
+  CHECK(field.distance == known);
 }
 
 TEST_CASE("solids on a device: radius, budget, what is refused", "[gl]") {
@@ -160,18 +155,16 @@ TEST_CASE("solids on a device: radius, budget, what is refused", "[gl]") {
 }
 
 TEST_CASE("a solid by lengths alone on a device", "[gl]") {
-  const auto context = device();
-  if (!context || !openmp_built()) return;
+  if (!device()) return;
   for (const Solid& s : {solid_cube(7), l_shape(8), edge_touch(5)}) {
     const TetMesh<float> mesh(s.positions.size(), s.tets, s.lengths());
     const PointSource sources[] = {PointSource::at(0), PointSource::in(3, {.1, .2, .3, .4})};
-    check_close(*context, by_team(mesh, sources), solve(GL{}, mesh, sources).distance);
+    check_close(by_one_thread(mesh, sources), solve(GL{}, mesh, sources).distance);
   }
 }
 
 TEST_CASE("one field a source in a solid on a device", "[gl]") {
-  const auto context = device();
-  if (!context || !openmp_built()) return;
+  if (!device()) return;
   const Solid s = l_shape(6);
   const auto mesh = s.mesh<float>();
   const auto sources = some_sources(s, 9, 2);
@@ -183,7 +176,7 @@ TEST_CASE("one field a source in a solid on a device", "[gl]") {
     std::vector<float> each(sources.size() * vertices);
     CHECK(solve_each(executor, mesh, sources, {}, workspace, each));
     for (std::size_t k = 0; k < sources.size(); ++k) {
-      check_close(*context, by_team(mesh, Sources(&sources[k], 1)),
+      check_close(by_one_thread(mesh, Sources(&sources[k], 1)),
                   std::span<const float>(each).subspan(k * vertices, vertices));
     }
   }

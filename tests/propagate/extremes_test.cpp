@@ -11,7 +11,6 @@
 
 #include "complex/test_meshes.hpp"
 #include "complex/test_solids.hpp"
-#include "executors/crew.hpp"
 #include "propagate/front.hpp"
 #include "propagate/wavefront.hpp"
 #include "propagate/workspace_state.hpp"
@@ -199,23 +198,7 @@ struct Gaining {
       const Label better = {front.label(s).distance * (1 - 0x1p-20F)};
       front.accept(s, 0, better, better.distance, 0);
     }
-    void far_ahead(Index) const {}
-    void ahead(Index) const {}
   };
-  struct Rule {
-    std::function<float(Index)> distance;
-  };
-
-  Rule rule_;
-  [[nodiscard]] const Rule& rule() const { return rule_; }
-  template <class Front, class Rounds>
-  [[nodiscard]] auto expander(Front& front, bool, const Rounds&) const {
-    return Expander<Front>{front};
-  }
-  template <class Spread>
-  void run(const Spread& spread) const {
-    spread(false);
-  }
 };
 
 using Queue = DualQueue<float>;
@@ -223,7 +206,7 @@ using Front = Wavefront<float, Gaining::Label, Queue, false>;
 
 }  // namespace
 
-TEST_CASE("labels that improve without end are given up, alone and by a team") {
+TEST_CASE("labels that improve without end are given up") {
   const PropagateOptions options;
   WorkspaceState<float> workspace;
   workspace.front.reserve(2);
@@ -245,14 +228,6 @@ TEST_CASE("labels that improve without end are given up, alone and by a team") {
   };
   CHECK_THROWS_AS(forever(), EndlessError);
 
-  workspace.start(2, false);
-  labels[0] = {1e30F};
-  Front front = make();
-  front.accept(0, 0, labels[0], 1e30F, 0);
-  const Team team(OpenMP{.threads = 1});
-  const TeamCrew<float, false> crew(team, workspace, 1, 1, options);
-  Gaining gaining = {{[&](Index s) { return labels[s].distance; }}};
-  CHECK_THROWS_WITH(crew.run(gaining, front, 2), Contains("labels keep improving without end"));
   CHECK_NOTHROW(check_end(endless_after(1000), 1000));
 }
 

@@ -20,14 +20,13 @@ class GLWorkspace;
 /// OpenGL 4.3, or too small a buffer for the domain.
 ///
 /// A solve (solve.hpp) is as by Serial with these differences. Many labels are expanded at once, in
-/// the rounds of OpenMP: the same bits each time, and where the device rounds as the processor does
-/// those of OpenMP, up to the order of additions in the vectorised step. They differ from Serial's
-/// as those of two schedules of Serial do, 2e-4 to 1e-3 in the mean and 1e-2 at worst, and are as
-/// near to the exact ones (docs/contributing/methods/executors.md). On wireframes they are those of
-/// Serial to the bit. Numbers are single precision; UsageError for more than 2^27 sources. Progress
-/// is reported every few rounds. A bounded search costs memory and time for the whole domain. For
-/// many fields `solve_each` is what a graphics processor does best. Source: Trettner, Bommes,
-/// Kobbelt: Geodesic Distance Computation via Virtual Source Propagation, SGP 2021, section 5.
+/// rounds, with the same bits each time. They differ from Serial's as those of two schedules of
+/// Serial do, 2e-4 to 1e-3 in the mean and 1e-2 at worst, and are as near to the exact ones
+/// (docs/contributing/methods/executors.md). On wireframes they are those of Serial to the bit.
+/// Numbers are single precision; UsageError for more than 2^27 sources. Progress is reported every
+/// few rounds. A bounded search costs memory and time for the whole domain. For many fields
+/// `solve_each` is what a graphics processor does best. Source: Trettner, Bommes, Kobbelt: Geodesic
+/// Distance Computation via Virtual Source Propagation, SGP 2021, section 5.
 struct GL {
   /// Its rows in the table of support.hpp.
   static constexpr ExecutorKind kind = ExecutorKind::gl;
