@@ -3,6 +3,11 @@
 #include <array>
 #include <atomic>
 
+#include <plexway/error.hpp>
+
+#include "any/hdf5_functions.hpp"
+#include "any/openvdb_functions.hpp"
+#include "any/pcl_functions.hpp"
 #include "file/unfinished.hpp"
 
 namespace plexway {
@@ -34,8 +39,6 @@ void remove_unfinished_files() noexcept {
 #include <filesystem>
 #include <system_error>
 #include <vector>
-
-#include <plexway/error.hpp>
 
 namespace plexway {
 namespace {
@@ -91,3 +94,38 @@ void* module_function(const std::string& what, const char* library, const char* 
 
 }  // namespace plexway
 #endif
+
+namespace plexway {
+
+/// The function of a module that returns its table, which is looked up once. Without the module
+/// there is no table.
+#define PLEXWAY_FUNCTIONS(Functions, functions, library, file)                                  \
+  const Functions& functions(const std::string& what) {                                         \
+    using Entry = const Functions* (*)();                                                       \
+    static const Functions* const table =                                                       \
+        reinterpret_cast<Entry>(module_function(what, library, file, "plexway_" #functions))(); \
+    return *table;                                                                              \
+  }
+#define PLEXWAY_NO_FUNCTIONS(Functions, functions, library, package)                          \
+  const Functions& functions(const std::string& what) {                                       \
+    throw NotBuiltError(what + ": takes " library ", which is not built in; install " package \
+                               " and build again");                                           \
+  }
+
+#ifdef PLEXWAY_HDF5_MODULE
+PLEXWAY_FUNCTIONS(Hdf5Functions, hdf5_functions, "HDF5", PLEXWAY_HDF5_MODULE)
+#else
+PLEXWAY_NO_FUNCTIONS(Hdf5Functions, hdf5_functions, "HDF5", "libhdf5-dev")
+#endif
+#ifdef PLEXWAY_OPENVDB_MODULE
+PLEXWAY_FUNCTIONS(OpenvdbFunctions, openvdb_functions, "OpenVDB", PLEXWAY_OPENVDB_MODULE)
+#else
+PLEXWAY_NO_FUNCTIONS(OpenvdbFunctions, openvdb_functions, "OpenVDB", "libopenvdb-dev")
+#endif
+#ifdef PLEXWAY_PCL_MODULE
+PLEXWAY_FUNCTIONS(PclFunctions, pcl_functions, "PCL", PLEXWAY_PCL_MODULE)
+#else
+PLEXWAY_NO_FUNCTIONS(PclFunctions, pcl_functions, "PCL", "libpcl-dev")
+#endif
+
+}  // namespace plexway

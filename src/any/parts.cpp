@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "complex/simplex_gluing.hpp"
+#include "complex/disjoint_sets.hpp"
 
 namespace plexway {
 

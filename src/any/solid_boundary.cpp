@@ -1,11 +1,11 @@
 #include "any/solid_boundary.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <utility>
 #include <vector>
+
+#include "complex/outer_faces.hpp"
 
 namespace plexway {
 namespace {
@@ -27,29 +27,9 @@ bool inside_out(std::span<const Point> positions, const std::array<std::uint32_t
 
 std::vector<Row> boundary_faces(std::span<const Point> positions,
                                 std::span<const std::array<std::uint32_t, 4>> tets) {
-  std::vector<std::pair<Row, Row>> faces;  // sorted, as it is
-  faces.reserve(4 * tets.size());
-  constexpr std::array<std::array<std::size_t, 3>, 4> outward = {
-      {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
-  for (const auto& tet : tets) {
-    const bool turned = inside_out(positions, tet);
-    for (const auto& [i, j, k] : outward) {
-      const Row row = {tet[i], tet[turned ? k : j], tet[turned ? j : k]};
-      Row sorted = row;
-      std::sort(sorted.begin(), sorted.end());
-      faces.emplace_back(sorted, row);
-    }
-  }
-  std::sort(faces.begin(), faces.end());
-  std::vector<Row> outer;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (f + 1 < faces.size() && faces[f].first == faces[f + 1].first) {
-      ++f;
-      continue;
-    }
-    outer.push_back(faces[f].second);
-  }
-  return outer;
+  return outer_faces(
+      tets.size(), [&](std::size_t t, std::size_t i) { return tets[t][i]; },
+      [&](std::size_t t) { return inside_out(positions, tets[t]); });
 }
 
 io::Triangles boundary_of(const io::Tets& solid) {

@@ -6,7 +6,8 @@
 #include <utility>
 #include <variant>
 
-#include "complex/simplex_gluing.hpp"
+#include "complex/disjoint_sets.hpp"
+#include "complex/fill_rows.hpp"
 
 namespace plexway {
 namespace {
@@ -115,7 +116,6 @@ Cells::Cells(std::span<const CellPiece<Real>> pieces, Welds welds)
     vertex_[v] = n;
   }
   corner_begin_.push_back(0);
-  around_begin_.assign(count + 1, 0);
   for (const CellPiece<Real>& piece : pieces)
     std::visit(
         [&](const auto* complex) {
@@ -126,17 +126,15 @@ Cells::Cells(std::span<const CellPiece<Real>> pieces, Welds welds)
             for (const Index v : four_corners(*complex, s)) {
               if (v == none) break;
               corner_.push_back(vertex_[outer_[piece.first_vertex + v]]);
-              ++around_begin_[corner_.back() + 1];
             }
             corner_begin_.push_back(static_cast<std::uint32_t>(corner_.size()));
           }
         },
         piece.complex);
-  for (std::size_t v = 0; v < count; ++v) around_begin_[v + 1] += around_begin_[v];
-  around_.resize(corner_.size());
-  std::vector<std::uint32_t> end(around_begin_.begin(), around_begin_.end() - 1);
-  for (Index s = 0; s + 1 < corner_begin_.size(); ++s)
-    for (const Index v : corners(s)) around_[end[v]++] = s;
+  fill_rows(count, around_begin_, around_, [&](const auto& add) {
+    for (Index s = 0; s + 1 < corner_begin_.size(); ++s)
+      for (const Index v : corners(s)) add(v, s);
+  });
 }
 
 std::span<const Index> Cells::corners(Index simplex) const {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include <plexway/complex/detail/tet_record.hpp>
+
 #include "complex/point3.hpp"
 
 namespace plexway {
@@ -64,12 +66,10 @@ ClosestSoFar<3> closest(const std::array<Vector, 3>& corners) {
 
 // The origin itself where it lies inside, else the best of the four faces.
 ClosestSoFar<4> closest(const std::array<Vector, 4>& corners) {
-  constexpr std::array<std::array<std::size_t, 3>, 4> faces = {
-      {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};  // seen from the corner across, one way round
   std::array<double, 4> weight;
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    const auto& [a, b, c] = faces[i];
+    const auto& [a, b, c] = tet_faces_inside[i];
     weight[i] = dot(corners[a], cross(corners[b], corners[c]));
     sum += weight[i];
   }
@@ -78,10 +78,9 @@ ClosestSoFar<4> closest(const std::array<Vector, 4>& corners) {
     if (*std::min_element(weight.begin(), weight.end()) >= 0) return {0, weight};
   }
   ClosestSoFar<4> best;
-  for (const auto& face : faces) {
-    const auto& [a, b, c] = face;
-    best.improve(closest(std::array{corners[a], corners[b], corners[c]}), face);
-  }
+  for (const auto& [a, b, c] : tet_faces_inside)
+    best.improve(closest(std::array{corners[a], corners[b], corners[c]}),
+                 std::array<std::size_t, 3>{a, b, c});
   return best;
 }
 

@@ -3,31 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "complex/crease.hpp"
+#include "complex/disjoint_sets.hpp"
 
 namespace plexway {
 namespace {
-
-class Parts {
- public:
-  explicit Parts(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), Index{0});
-  }
-  Index find(Index a) {
-    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-    return a;
-  }
-  void join(Index a, Index b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  void add() { parent_.push_back(static_cast<Index>(parent_.size())); }
-
- private:
-  std::vector<Index> parent_;
-};
 
 struct Pair {
   double distance_between;
@@ -55,9 +36,9 @@ Index beside(const Places& places, const SheetWedges& sheet, Index a, Index b) {
 CloudParts bridge_parts(const SheetRule& rule, std::span<const TangentFrame> frames, Places& places,
                         SheetWedges& sheet) {
   const std::size_t n = places.near.point_count();
-  Parts parts(n);
+  DisjointSets parts(n);
   for (const auto& [a, b, c] : sheet.triangles())
-    if (a != none) parts.join(a, b), parts.join(b, c);
+    if (a != none) parts.unite(a, b), parts.unite(b, c);
 
   std::vector<Index> of(n);
   bool several = false;
@@ -84,7 +65,7 @@ CloudParts bridge_parts(const SheetRule& rule, std::span<const TangentFrame> fra
   CloudParts result;
   for (const auto& [l, a, b] : pairs) {
     if (parts.find(a) == parts.find(b)) continue;
-    parts.join(a, b);
+    parts.unite(a, b);
     ++result.bridges;
     const bool at_a = sheet.used(a), at_b = sheet.used(b);
     result.joints += at_a && at_b;
@@ -94,7 +75,7 @@ CloudParts bridge_parts(const SheetRule& rule, std::span<const TangentFrame> fra
       places.at.push_back({p[0] / 2 + q[0] / 2, p[1] / 2 + q[1] / 2, p[2] / 2 + q[2] / 2});
       sheet.add_place();
       parts.add();
-      parts.join(halfway, a);
+      parts.unite(halfway, a);
       sheet.add({a, b, halfway});
       continue;
     }

@@ -8,7 +8,7 @@
 #include <plexway/complex/ids.hpp>
 
 #include "complex/building_blocks.hpp"
-#include "complex/simplex_gluing.hpp"
+#include "complex/disjoint_sets.hpp"
 
 namespace plexway {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 
 #include <plexway/error.hpp>
 
+#include "complex/disjoint_sets.hpp"
 #include "complex/near_twins.hpp"
 #include "complex/simplex_order.hpp"
 
@@ -106,12 +106,7 @@ bool may_have_near_twins(Points points, const Neighbours& neighbours) {
 DistinctPoints without_near_twins(Points points, const Neighbours& neighbours,
                                   const DistinctPoints& places) {
   constexpr std::size_t most = 3;  // one in so many neighbours
-  std::vector<Index> parent(points.size());
-  std::iota(parent.begin(), parent.end(), Index{0});
-  const auto root = [&](Index i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets twins(points.size());
   std::vector<std::pair<double, Index>> row;
   bool any = false;
   for (const Index i : places.order) {
@@ -134,17 +129,12 @@ DistinctPoints without_near_twins(Points points, const Neighbours& neighbours,
     std::size_t near = 0;
     for (std::size_t k = 1; k <= row.size() / most; ++k)
       if (row[k - 1].first < nearness * row[k].first) near = k;
-    for (std::size_t k = 0; k < near; ++k) {
-      const Index a = root(i), b = root(row[k].second);
-      if (a == b) continue;
-      parent[std::max(a, b)] = std::min(a, b);
-      any = true;
-    }
+    for (std::size_t k = 0; k < near; ++k) any |= twins.unite(i, row[k].second);
   }
   if (!any) return places;
   DistinctPoints merged;
   merged.first.resize(points.size());
-  for (Index i = 0; i < points.size(); ++i) merged.first[i] = root(places.first[i]);
+  for (Index i = 0; i < points.size(); ++i) merged.first[i] = twins.find(places.first[i]);
   for (const Index i : places.order)
     if (merged.first[i] == i) merged.order.push_back(i);
   return merged;

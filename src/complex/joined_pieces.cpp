@@ -8,9 +8,9 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/disjoint_sets.hpp"
 #include "complex/joined_solids.hpp"
 #include "complex/joined_surfaces.hpp"
-#include "complex/simplex_gluing.hpp"
 
 namespace plexway {
 namespace {

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "complex/disjoint_sets.hpp"
 #include "complex/face_layout.hpp"
 #include "complex/shape_blocks.hpp"
-#include "complex/simplex_gluing.hpp"
 #include "complex/simplex_order.hpp"
 #include "complex/triangle_shape.hpp"
 

@@ -11,6 +11,7 @@
 
 #include "complex/boundary_saddles.hpp"
 #include "complex/cloud_bridges.hpp"
+#include "complex/fill_rows.hpp"
 #include "complex/gluing.hpp"
 #include "complex/near_twins.hpp"
 #include "complex/sheet_lengths.hpp"
@@ -164,11 +165,11 @@ void count_pairs(const Places& places, std::span<const TangentFrame> frames,
 // Along the curve that the places lie along: by the first of each triangle's places.
 std::vector<Corners3> along_places(std::span<const Corners3> faces, std::size_t places) {
   const auto first_of = [](const Corners3& t) { return std::min({t[0], t[1], t[2]}); };
-  std::vector<Index> begin(places + 1, 0);
-  for (const Corners3& t : faces) ++begin[first_of(t) + 1];
-  for (std::size_t p = 0; p < places; ++p) begin[p + 1] += begin[p];
-  std::vector<Corners3> sorted(faces.size());
-  for (const Corners3& t : faces) sorted[begin[first_of(t)]++] = t;
+  std::vector<Index> begin;
+  std::vector<Corners3> sorted;
+  fill_rows(places, begin, sorted, [&](const auto& add) {
+    for (const Corners3& t : faces) add(first_of(t), t);
+  });
   return sorted;
 }
 

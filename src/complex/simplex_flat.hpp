@@ -13,9 +13,9 @@
 
 #include <plexway/complex/detail/simplex_record.hpp>
 
+#include "complex/disjoint_sets.hpp"
 #include "complex/elimination.hpp"
 #include "complex/flat_domain.hpp"
-#include "complex/simplex_gluing.hpp"
 
 namespace plexway {
 

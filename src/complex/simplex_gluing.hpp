@@ -8,6 +8,8 @@
 
 #include <plexway/complex/detail/simplex_record.hpp>
 
+#include "complex/fill_rows.hpp"
+
 namespace plexway {
 
 /// For each facet (N + 1) s + i of simplices with ascending corners: the facet with the same
@@ -21,14 +23,10 @@ std::vector<Index> glue_facets(std::size_t vertices,
     return simplices[facet / sides][Layout::corner(facet % sides, k)];
   };
   // In buckets by their first vertex, then sorted by the others.
-  std::vector<Index> begin(vertices + 1, 0), bucket(simplices.size() * sides);
-  const Index count = static_cast<Index>(bucket.size());
-  for (Index f = 0; f < count; ++f) ++begin[vertex(f, 0) + 1];
-  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
-  {
-    std::vector<Index> cursor(begin.begin(), begin.end() - 1);
-    for (Index f = 0; f < count; ++f) bucket[cursor[vertex(f, 0)]++] = f;
-  }
+  std::vector<Index> begin, bucket;
+  fill_rows(vertices, begin, bucket, [&](const auto& add) {
+    for (Index f = 0; f < simplices.size() * sides; ++f) add(vertex(f, 0), f);
+  });
   const auto same = [&](Index a, Index b) {
     for (std::size_t k = 1; k < N; ++k)
       if (vertex(a, k) != vertex(b, k)) return false;
@@ -52,28 +50,5 @@ std::vector<Index> glue_facets(std::size_t vertices,
   }
   return across;
 }
-
-/// Disjoint sets of 0, 1, ..., n - 1.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) {
-    for (std::size_t i = 0; i < n; ++i) parent_[i] = static_cast<Index>(i);
-  }
-  Index find(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// Were they apart?
-  bool unite(Index i, Index j) {
-    if (parent_[i] == parent_[j]) return false;
-    i = find(i);
-    j = find(j);
-    if (i != j) parent_[std::max(i, j)] = std::min(i, j);
-    return i != j;
-  }
-
- private:
-  std::vector<Index> parent_;
-};
 
 }  // namespace plexway

@@ -10,6 +10,8 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/disjoint_sets.hpp"
+#include "complex/fill_rows.hpp"
 #include "complex/number_range.hpp"
 #include "complex/one_length.hpp"
 #include "complex/simplex_flat.hpp"
@@ -268,14 +270,9 @@ template <class Real, int N>
 void SimplicialComplex<Real, N>::find_stars(std::size_t vertices) {
   constexpr std::size_t sides = N + 1;
   const std::size_t count = records_.size();
-  star_begin_.assign(vertices + 1, 0);
-  corners_.resize(count * sides);
-  for (const Record& record : records_)
-    for (const Index v : record.corner) ++star_begin_[v + 1];
-  std::partial_sum(star_begin_.begin(), star_begin_.end(), star_begin_.begin());
-  std::vector<Index> cursor(star_begin_.begin(), star_begin_.end() - 1);
-  for (std::size_t c = 0; c < corners_.size(); ++c)
-    corners_[cursor[records_[c / sides].corner[c % sides]]++] = static_cast<Index>(c);
+  fill_rows(vertices, star_begin_, corners_, [&](const auto& add) {
+    for (Index c = 0; c < count * sides; ++c) add(records_[c / sides].corner[c % sides], c);
+  });
 
   // Corners at one vertex that facets join, and simplices that vertices join.
   DisjointSets fans(count * sides), parts(count);

@@ -19,8 +19,7 @@ double dihedral(const TetPoints& p, Index i, Index j, Index k, Index l) {
 }
 
 Vector3<double> inward_normal(const TetPoints& p, Index face) {
-  constexpr Index order[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};  // seen from outside
-  const auto& [a, b, c] = order[face];
+  const auto& [a, b, c] = tet_faces[face];
   const auto n = cross(p[c] - p[a], p[b] - p[a]);
   const double length = norm(n);
   return length > 0 ? 1 / length * n : n;
@@ -48,7 +47,7 @@ TetEdgeFans::Found TetEdgeFans::look(Index first, Index last) {
 // where its edge ascends along the boundary's faces as seen from inside and ends where it descends,
 // and all tetrahedra at the edge are in it. False, and nothing is found, where it is not so.
 bool TetEdgeFans::look_at_boundary(Index v) {
-  constexpr Index turn[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};  // around a corner
+  constexpr auto& turn = tet_faces_inside;
   constexpr Index begins = 1, ends = 2;
   const auto row = solid_.corners_at(v);
   starts_.clear();

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "complex/building_blocks.hpp"
-#include "complex/simplex_gluing.hpp"
+#include "complex/disjoint_sets.hpp"
 #include "complex/tet_edge_fans.hpp"
 
 namespace plexway {

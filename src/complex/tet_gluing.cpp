@@ -98,7 +98,6 @@ class FaceGluer {
 
   std::span<FaceSide> collect(Index v) {
     // The other corners as the face opposite to a corner has them, seen from inside.
-    constexpr std::uint8_t turn[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
     const auto row = rows_.at(v);
     if (sides_.size() < 3 * row.size() + 1) sides_.resize(6 * row.size() + 64);
     FaceSide* end = sides_.data();
@@ -106,7 +105,7 @@ class FaceGluer {
     std::size_t edges = 0;
     for (const Index c : row) {
       const auto& tet = tets_[c / 4];
-      const auto& [p, q, r] = turn[c % 4];
+      const auto& [p, q, r] = tet_faces_inside[c % 4];
       const Index x = tet[p], y = tet[q], z = tet[r];
       const std::uint64_t first = std::uint64_t{c & ~Index{3}} << FaceSide::corner_shift | 1;
       const auto add = [&](Index from, Index to, std::uint64_t rest, std::size_t ours) {

@@ -12,6 +12,7 @@
 
 #include "complex/building_blocks.hpp"
 #include "complex/face_layout.hpp"
+#include "complex/fill_rows.hpp"
 #include "complex/gluing.hpp"
 #include "complex/number_range.hpp"
 #include "complex/one_length.hpp"
@@ -362,20 +363,14 @@ void TriangleMesh<Real>::place(std::span<const std::array<double, 3>> positions,
 template <class Real>
 void TriangleMesh<Real>::take_chords(std::span<const SurfaceChord> chords) {
   if (chords.empty()) return;
-  std::vector<Index>& begin = chord_begin_.own();
-  begin.assign(vertex_count() + 1, 0);
-  for (const SurfaceChord& chord : chords)
-    for (const Index v : {chord.from, chord.to}) ++begin[vertex_to_inside_[v] + 1];
-  for (std::size_t v = 0; v < vertex_count(); ++v) begin[v + 1] += begin[v];
-  std::vector<ChordEnd>& rows = chords_.own();
-  rows.resize(2 * chords.size());
-  std::vector<Index> end(begin.begin(), begin.end() - 1);
-  for (const SurfaceChord& chord : chords) {
-    const Index v = vertex_to_inside_[chord.from], w = vertex_to_inside_[chord.to];
-    const Real length = static_cast<Real>(chord.length / unit());
-    rows[end[v]++] = {w, length};
-    rows[end[w]++] = {v, length};
-  }
+  fill_rows(vertex_count(), chord_begin_.own(), chords_.own(), [&](const auto& add) {
+    for (const SurfaceChord& chord : chords) {
+      const Index v = vertex_to_inside_[chord.from], w = vertex_to_inside_[chord.to];
+      const Real length = static_cast<Real>(chord.length / unit());
+      add(v, {w, length});
+      add(w, {v, length});
+    }
+  });
 }
 
 template <class Real>

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "complex/components.hpp"
+#include "complex/disjoint_sets.hpp"
 #include "complex/face_layout.hpp"
-#include "complex/simplex_gluing.hpp"
 
 namespace plexway {
 namespace {

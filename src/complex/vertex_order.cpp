@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "complex/fill_rows.hpp"
 #include "complex/simplex_order.hpp"
 
 namespace plexway {
@@ -15,15 +16,13 @@ std::vector<Index> vertices_along_curve(std::span<const std::array<double, 3>> p
 std::vector<Index> vertices_in_blocks(std::size_t vertices,
                                       std::span<const std::array<Index, 2>> edges,
                                       std::size_t block) {
-  std::vector<Index> begin(vertices + 1, 0);
-  for (const auto& ends : edges)
-    for (const Index v : ends) ++begin[v + 1];
-  for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
-  std::vector<Index> neighbour(2 * edges.size()), at(begin.begin(), begin.end() - 1);
-  for (const auto& [a, b] : edges) {
-    neighbour[at[a]++] = b;
-    neighbour[at[b]++] = a;
-  }
+  std::vector<Index> begin, neighbour;
+  fill_rows(vertices, begin, neighbour, [&](const auto& add) {
+    for (const auto& [a, b] : edges) {
+      add(a, b);
+      add(b, a);
+    }
+  });
   std::vector<char> seen(vertices, 0);
   std::vector<Index> order;
   order.reserve(vertices);

@@ -6,6 +6,7 @@
 
 #include <plexway/error.hpp>
 
+#include "complex/disjoint_sets.hpp"
 #include "complex/number_range.hpp"
 #include "complex/vertex_order.hpp"
 
@@ -133,22 +134,12 @@ void Wireframe<Real>::assemble(std::span<const std::array<Index, 2>> edges,
 
 template <class Real>
 void Wireframe<Real>::count_components() {
-  std::vector<Index> parent(vertex_count());
-  for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = static_cast<Index>(v);
-  const auto root = [&](Index v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets parts(vertex_count());
   std::size_t joins = 0;
-  for (Index v = 0; v < parent.size(); ++v)
-    for (Index k = begin_[v]; k < begin_[v + 1]; ++k) {
-      if (arcs_[k].to >= v) continue;  // each edge once
-      const Index a = root(v), b = root(arcs_[k].to);
-      if (a == b) continue;
-      parent[std::max(a, b)] = std::min(a, b);
-      ++joins;
-    }
-  summary_.components = parent.size() - joins - summary_.unreferenced_vertices;
+  for (Index v = 0; v < vertex_count(); ++v)
+    for (Index k = begin_[v]; k < begin_[v + 1]; ++k)
+      if (arcs_[k].to < v) joins += parts.unite(v, arcs_[k].to);  // each edge once
+  summary_.components = vertex_count() - joins - summary_.unreferenced_vertices;
 }
 
 template <class Real>

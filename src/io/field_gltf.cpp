@@ -13,6 +13,7 @@
 #include "base64.hpp"
 #include "bytes.hpp"
 #include "colour_map.hpp"
+#include "complex/outer_faces.hpp"
 #include "field_formats.hpp"
 
 namespace plexway::io {
@@ -42,28 +43,11 @@ std::string list(const std::array<Number, 3>& row) {
 
 /// Faces of one tetrahedron only, counterclockwise from outside where tetrahedra are positive.
 std::vector<std::uint32_t> boundary(const Cells& tets) {
-  using Row = std::array<std::uint32_t, 3>;
-  std::vector<std::array<Row, 2>> faces;  // sorted, as it is
-  faces.reserve(4 * tets.count());
-  constexpr std::array<std::array<std::size_t, 3>, 4> outward = {
-      {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
-  for (std::size_t t = 0; t < tets.count(); ++t)
-    for (const auto& [i, j, k] : outward) {
-      const auto corner = [&](std::size_t c) { return tets.connectivity[4 * t + c]; };
-      const Row row = {corner(i), corner(j), corner(k)};
-      Row sorted = row;
-      std::sort(sorted.begin(), sorted.end());
-      faces.push_back({sorted, row});
-    }
-  std::sort(faces.begin(), faces.end());
   std::vector<std::uint32_t> corners;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (f + 1 < faces.size() && faces[f][0] == faces[f + 1][0]) {
-      ++f;
-      continue;
-    }
-    corners.insert(corners.end(), faces[f][1].begin(), faces[f][1].end());
-  }
+  for (const auto& face : outer_faces(
+           tets.count(), [&](std::size_t t, std::size_t i) { return tets.connectivity[4 * t + i]; },
+           [](std::size_t) { return false; }))
+    corners.insert(corners.end(), face.begin(), face.end());
   return corners;
 }
 

@@ -1,17 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "complex/outer_faces.hpp"
 #include "skins.hpp"
 
 namespace plexway::render {
 namespace {
-
-constexpr std::array<std::array<std::size_t, 3>, 4> facets = {
-    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};  // outward for positive volume
-
-struct Facet {
-  std::array<std::uint32_t, 3> sorted, wound;
-};
 
 /// A plane through a tetrahedron: on which edges its corners are, in cyclic order.
 struct Cut {
@@ -97,29 +91,15 @@ std::vector<std::array<std::uint32_t, 3>> boundary(
              return making.clip->over(making.frame(positions[v])) == 0;
            });
   };
-  std::vector<Facet> all;
-  all.reserve(4 * tets.size());
-  for (const auto& t : tets) {
-    const Point& p = positions[t[0]];
-    const bool positive = dot(minus(positions[t[1]], p),
-                              cross(minus(positions[t[2]], p), minus(positions[t[3]], p))) > 0;
-    for (const auto& f : facets) {
-      Facet facet;
-      facet.wound = {t[f[0]], t[f[positive ? 1 : 2]], t[f[positive ? 2 : 1]]};
-      facet.sorted = facet.wound;
-      std::sort(facet.sorted.begin(), facet.sorted.end());
-      all.push_back(facet);
-    }
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Facet& a, const Facet& b) { return a.sorted < b.sorted; });
-  std::vector<std::array<std::uint32_t, 3>> outer;
-  for (std::size_t k = 0; k < all.size();) {
-    std::size_t end = k + 1;
-    while (end < all.size() && all[end].sorted == all[k].sorted) ++end;
-    if (end == k + 1 && !in_plane(all[k].wound)) outer.push_back(all[k].wound);
-    k = end;
-  }
+  auto outer = outer_faces(
+      tets.size(), [&](std::size_t t, std::size_t i) { return tets[t][i]; },
+      [&](std::size_t t) {
+        const auto [a, b, c, d] = tets[t];
+        const Point& p = positions[a];
+        return !(
+            dot(minus(positions[b], p), cross(minus(positions[c], p), minus(positions[d], p))) > 0);
+      });
+  std::erase_if(outer, in_plane);
   return outer;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "complex/fill_rows.hpp"
 #include "skins.hpp"
 
 namespace plexway::render {
@@ -25,15 +26,11 @@ double angle_at(const Part& part, const std::array<std::uint32_t, 3>& t, std::si
 struct Stars {
   std::vector<std::uint32_t> first, corner;  ///< corner: 3 * face + place
 
-  Stars(std::size_t vertices, std::span<const std::array<std::uint32_t, 3>> triangles)
-      : first(vertices + 1, 0), corner(3 * triangles.size()) {
-    for (const auto& t : triangles)
-      for (const std::uint32_t v : t) ++first[v + 1];
-    for (std::size_t v = 0; v < vertices; ++v) first[v + 1] += first[v];
-    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    for (std::size_t f = 0; f < triangles.size(); ++f)
-      for (std::size_t k = 0; k < 3; ++k)
-        corner[next[triangles[f][k]]++] = static_cast<std::uint32_t>(3 * f + k);
+  Stars(std::size_t vertices, std::span<const std::array<std::uint32_t, 3>> triangles) {
+    fill_rows(vertices, first, corner, [&](const auto& add) {
+      for (std::size_t c = 0; c < 3 * triangles.size(); ++c)
+        add(triangles[c / 3][c % 3], static_cast<std::uint32_t>(c));
+    });
   }
 };
 

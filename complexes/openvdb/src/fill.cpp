@@ -3,6 +3,7 @@
 #include <string>
 #include <unordered_map>
 
+#include <plexway/complex/detail/tet_record.hpp>
 #include <plexway/error.hpp>
 #include <plexway/openvdb/solid.hpp>
 
@@ -167,10 +168,8 @@ Surface surface_of(const LevelSet& level_set, double spacing) {
     std::array<Index, 3> sorted, given;
   };
   std::vector<Face> faces;
-  constexpr std::array<std::array<std::size_t, 3>, 4> outward = {
-      {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
   for (const auto& tet : cutter.solid.tets)
-    for (const auto& [i, j, k] : outward) {
+    for (const auto& [i, j, k] : tet_faces) {
       const std::array<Index, 3> given = {tet[i], tet[j], tet[k]};
       if (!std::all_of(given.begin(), given.end(), [&](Index v) { return cutter.on_surface(v); }))
         continue;

@@ -41,29 +41,14 @@ std::vector<std::array<float, 6>> squared_lengths(const TetMesh<float>& mesh) {
   return lengths;
 }
 
-// Several fields in one solid, in one launch.
-class SolidRun {
+class SolidRun : public RunOn<TetMesh<float>, SolidBuffers> {
  public:
-  using Domain = TetMesh<float>;
   using Seeds = SolidSeeds;
 
-  static void check(const Domain& mesh, std::span<const PointSource> sources,
-                    const PropagateOptions& options) {
-    plexway::check(sources, options, mesh);
-    check_number(sources.size());
-  }
   static std::size_t cells(const Domain& mesh) { return mesh.tet_count(); }
 
-  SolidRun(const Domain& mesh, const Job& job)
-      : job_(job),
-        mesh_(mesh),
-        workspace_(job.workspace),
-        session_(job.session),
-        buffers_(workspace_.domain_buffers<SolidBuffers>(
-            session_, mesh.identity(), [&](SolidBuffers& fresh) { upload(fresh); })),
-        radius_(static_cast<float>(job.options.radius / mesh.unit())) {}
+  SolidRun(const Domain& mesh, const Job& job) : RunOn(mesh, job, upload) {}
 
-  /// Until no label waits, in so many fields. False if the budget is spent.
   bool run(const SolidSeeds& seeds, std::size_t fields) {
     fields_ = fields;
     Front& front = workspace_.front;
@@ -71,7 +56,7 @@ class SolidRun {
     front.clear_labels(session_, cells());
     front.seed<SolidCell>(session_, seeds.waiting, seeds.labels);
     const GLuint rule = session_.program("solid_round.comp");
-    const auto report = reporter(job_.options, cells(), mesh_.unit());
+    const auto report = reporter(job_.options, cells(), domain_.unit());
     bool complete = true;
     do {
       const Uniforms program(session_, rule);
@@ -85,9 +70,8 @@ class SolidRun {
     return complete;
   }
 
-  /// Fields times vertices, in the caller's order; `label` may be empty.
   void read_out(const SolidSeeds& seeds, std::span<float> distance, std::span<Index> label) {
-    const std::size_t vertices = fields_ * mesh_.vertex_count();
+    const std::size_t vertices = fields_ * domain_.vertex_count();
     labels_ = !label.empty();
     start_read_out(job_, vertices, seeds.offers.size(), labels_);
     offer_vertices(job_, seeds.offers, false, labels_);
@@ -99,26 +83,26 @@ class SolidRun {
     }
     finish(job_,
            {buffers_.inside, workspace_.vertex_best, 1, workspace_.vertex_source,
-            mesh_.vertex_count(), fields_, mesh_.unit()},
+            domain_.vertex_count(), fields_, domain_.unit()},
            distance, label);
   }
 
  private:
-  [[nodiscard]] std::size_t cells() const { return fields_ * mesh_.tet_count(); }
+  [[nodiscard]] std::size_t cells() const { return fields_ * domain_.tet_count(); }
 
-  void upload(SolidBuffers& to) {
+  static void upload(const Session& session, const Domain& mesh, SolidBuffers& to) {
     static_assert(sizeof(TetRecord<float>) == 48 && sizeof(SolidCell) == 32 &&
                   sizeof(AddedLabel) == 48);
-    to.tets.upload(session_, mesh_.tets().first(mesh_.tet_count()));
-    to.inside.upload(session_, mesh_.vertices_inside());
-    to.lengths.upload(session_, std::span<const std::array<float, 6>>(squared_lengths(mesh_)));
-    std::vector<Index> corners(mesh_.vertex_count() + 1, 0);
-    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      const auto around = mesh_.corners_at(v);
+    to.tets.upload(session, mesh.tets().first(mesh.tet_count()));
+    to.inside.upload(session, mesh.vertices_inside());
+    to.lengths.upload(session, std::span<const std::array<float, 6>>(squared_lengths(mesh)));
+    std::vector<Index> corners(mesh.vertex_count() + 1, 0);
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const auto around = mesh.corners_at(v);
       corners[v + 1] = corners[v] + static_cast<Index>(around.size());
       corners.insert(corners.end(), around.begin(), around.end());
     }
-    to.corners.upload(session_, std::span<const Index>(corners));
+    to.corners.upload(session, std::span<const Index>(corners));
   }
 
   void bind_solid() const {
@@ -127,21 +111,21 @@ class SolidRun {
   }
 
   void set_solid_uniforms(const Uniforms& program) const {
-    program.set("tet_count", mesh_.tet_count());
+    program.set("tet_count", domain_.tet_count());
     program.set("cell_count", cells());
-    program.set("vertex_count", mesh_.vertex_count());
+    program.set("vertex_count", domain_.vertex_count());
   }
 
   // Few solids have such places: the host sees to them.
   bool pass_pinches() {
-    if (mesh_.pinched().empty() && mesh_.pinched_edges().empty()) return false;
+    if (domain_.pinched().empty() && domain_.pinched_edges().empty()) return false;
     std::vector<Cell> best(cells());
     std::vector<SolidCell> known(cells());
     workspace_.front.cells().read(session_, std::span<Cell>(best));
     workspace_.front.labels().read(session_, std::span<SolidCell>(known));
     SolidSeeds found;
     for (std::size_t field = 0; field < fields_; ++field)
-      found.add_pinches(mesh_, job_.options, field, best, known, workspace_.host);
+      found.add_pinches(domain_, job_.options, field, best, known, workspace_.host);
     if (found.waiting.empty()) return false;
     std::vector<AddedLabel> added;
     for (std::size_t n = 0; n < found.waiting.size(); ++n)
@@ -186,30 +170,11 @@ class SolidRun {
     });
   }
 
-  const Job job_;
-  const Domain& mesh_;
-  GLWorkspace::Implementation& workspace_;
-  const Session& session_;
-  SolidBuffers& buffers_;
-  float radius_;
   bool labels_ = false;
-  std::size_t fields_ = 1;
 };
 
 }  // namespace
 
-void solve_points(const GL& executor, const TetMesh<float>& domain,
-                  std::span<const PointSource> sources, const PropagateOptions& options,
-                  GLWorkspace& workspace, DistanceField<float>& field) {
-  gl::solve_nearest<SolidRun>(executor, domain, sources, options, workspace, field);
-}
-
-bool each_point(const GL& executor, const TetMesh<float>& domain,
-                std::span<const PointSource> sources, const PropagateOptions& options,
-                GLWorkspace& workspace, std::span<float> distance) {
-  return gl::solve_each<SolidRun>(executor, domain, sources, options, workspace, distance);
-}
-
-PLEXWAY_COMPILE(GL, TetMesh<float>)
+PLEXWAY_COMPILE_GL(SolidRun)
 
 }  // namespace plexway

@@ -6,14 +6,50 @@
 
 #include <plexway/executors/gl.hpp>
 
+#include "executors/checks.hpp"
 #include "executors/gl/run.hpp"
+#include "executors/run.hpp"
 #include "propagate/endless.hpp"
 
-/// A solve on the device, for any kind of domain. Its Run says what is particular: `Domain`,
-/// `Seeds` (a SeedsOf with `add(domain, sources, field, host workspace)`), `check(domain, sources,
-/// options)`, `cells(domain)`, the simplices that have labels, `run(seeds, fields)` and
-/// `read_out(seeds, distance, label)`.
+/// A solve on the device, for any kind of domain. Its Run, a RunOn, says what is particular:
+/// `Seeds` (a SeedsOf with `add(domain, sources, field, host workspace)`), `cells(domain)`, the
+/// simplices that have labels, `upload(session, domain, buffers)`, `run(seeds, fields)`, until no
+/// label waits in so many fields (false if the budget is spent), and `read_out(seeds, distance,
+/// label)`, fields times vertices in the caller's order, where `label` may be empty.
 namespace plexway::gl {
+
+/// Several fields over one domain, in one launch.
+template <class D, class Buffers>
+class RunOn {
+ public:
+  using Domain = D;
+
+  static void check(const Domain& domain, std::span<const PointSource> sources,
+                    const PropagateOptions& options) {
+    plexway::check(sources, options, domain);
+    check_number(sources.size());
+  }
+
+ protected:
+  template <class Upload>
+  RunOn(const Domain& domain, const Job& job, const Upload& upload)
+      : job_(job),
+        domain_(domain),
+        workspace_(job.workspace),
+        session_(job.session),
+        buffers_(workspace_.template domain_buffers<Buffers>(
+            session_, domain.identity(),
+            [&](Buffers& fresh) { upload(job.session, domain, fresh); })),
+        radius_(static_cast<float>(job.options.radius / domain.unit())) {}
+
+  const Job job_;
+  const Domain& domain_;
+  GLWorkspace::Implementation& workspace_;
+  const Session& session_;
+  Buffers& buffers_;
+  float radius_;
+  std::size_t fields_ = 1;
+};
 
 /// One field: the nearest of all sources.
 template <class Run>
@@ -69,3 +105,17 @@ bool solve_each(const GL& executor, const typename Run::Domain& domain,
 }
 
 }  // namespace plexway::gl
+
+/// solve_points and each_point of GL for a domain, and what run.hpp compiles of them.
+#define PLEXWAY_COMPILE_GL(Run)                                                            \
+  void solve_points(const GL& executor, const Run::Domain& domain,                         \
+                    std::span<const PointSource> sources, const PropagateOptions& options, \
+                    GLWorkspace& workspace, DistanceField<float>& field) {                 \
+    gl::solve_nearest<Run>(executor, domain, sources, options, workspace, field);          \
+  }                                                                                        \
+  bool each_point(const GL& executor, const Run::Domain& domain,                           \
+                  std::span<const PointSource> sources, const PropagateOptions& options,   \
+                  GLWorkspace& workspace, std::span<float> distance) {                     \
+    return gl::solve_each<Run>(executor, domain, sources, options, workspace, distance);   \
+  }                                                                                        \
+  PLEXWAY_COMPILE(GL, Run::Domain)

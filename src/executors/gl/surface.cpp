@@ -20,29 +20,14 @@ struct SurfaceBuffers final : GLWorkspace::Implementation::DomainBuffers {
   std::vector<Buffer*> all() override { return {&triangles, &inside, &pinches, &corners}; }
 };
 
-// Several fields over one surface, in one launch.
-class SurfaceRun {
+class SurfaceRun : public RunOn<TriangleMesh<float>, SurfaceBuffers> {
  public:
-  using Domain = TriangleMesh<float>;
   using Seeds = SurfaceSeeds;
 
-  static void check(const Domain& mesh, std::span<const PointSource> sources,
-                    const PropagateOptions& options) {
-    plexway::check(sources, options, mesh);
-    check_number(sources.size());
-  }
   static std::size_t cells(const Domain& mesh) { return mesh.face_count(); }
 
-  SurfaceRun(const Domain& mesh, const Job& job)
-      : job_(job),
-        mesh_(mesh),
-        workspace_(job.workspace),
-        session_(job.session),
-        buffers_(workspace_.domain_buffers<SurfaceBuffers>(
-            session_, mesh.identity(), [&](SurfaceBuffers& fresh) { upload(fresh); })),
-        radius_(static_cast<float>(job.options.radius / mesh.unit())) {}
+  SurfaceRun(const Domain& mesh, const Job& job) : RunOn(mesh, job, upload) {}
 
-  /// Until no label waits, in so many fields. False if the budget is spent.
   bool run(const SurfaceSeeds& seeds, std::size_t fields) {
     fields_ = fields;
     Front& front = workspace_.front;
@@ -50,8 +35,8 @@ class SurfaceRun {
     front.seed<SurfaceLabel>(session_, seeds.waiting, seeds.labels);
     const GLuint rule = session_.program("surface_round.comp");
     const GLuint narrow = session_.program("surface_narrow.comp");
-    Uniforms(session_, narrow).set("triangle_count", mesh_.face_count());
-    const auto report = reporter(job_.options, cells(), mesh_.unit());
+    Uniforms(session_, narrow).set("triangle_count", domain_.face_count());
+    const auto report = reporter(job_.options, cells(), domain_.unit());
     bool complete = true;
     int revivals = 0;
     do {
@@ -65,10 +50,9 @@ class SurfaceRun {
     return complete;
   }
 
-  /// Fields times vertices, in the caller's order; `label` may be empty.
   void read_out(const SurfaceSeeds& seeds, std::span<float> distance, std::span<Index> label) {
     const bool labels = !label.empty();
-    start_read_out(job_, fields_ * mesh_.vertex_count(), seeds.offers.size(), labels);
+    start_read_out(job_, fields_ * domain_.vertex_count(), seeds.offers.size(), labels);
     for (const bool who : {false, true}) {
       if (who && !labels) break;
       offer_vertices(job_, seeds.offers, who, labels);
@@ -78,47 +62,47 @@ class SurfaceRun {
     }
     finish(job_,
            {buffers_.inside, workspace_.vertex_best, 1, workspace_.vertex_source,
-            mesh_.vertex_count(), fields_, mesh_.unit()},
+            domain_.vertex_count(), fields_, domain_.unit()},
            distance, label);
   }
 
  private:
-  [[nodiscard]] std::size_t cells() const { return fields_ * mesh_.face_count(); }
+  [[nodiscard]] std::size_t cells() const { return fields_ * domain_.face_count(); }
 
-  void upload(SurfaceBuffers& to) {
-    to.triangles.upload(session_, mesh_.triangles().first(mesh_.face_count()));
-    to.inside.upload(session_, mesh_.vertices_inside());
+  static void upload(const Session& session, const Domain& mesh, SurfaceBuffers& to) {
+    to.triangles.upload(session, mesh.triangles().first(mesh.face_count()));
+    to.inside.upload(session, mesh.vertices_inside());
     std::vector<Index> begin = {0}, corners, around;
-    for (const Index v : mesh_.pinched()) {
-      mesh_.corners_at(v, around);
+    for (const Index v : mesh.pinched()) {
+      mesh.corners_at(v, around);
       corners.insert(corners.end(), around.begin(), around.end());
       begin.push_back(static_cast<Index>(corners.size()));
     }
     if (corners.empty()) return;
-    to.pinches.upload(session_, std::span<const Index>(begin));
-    to.corners.upload(session_, std::span<const Index>(corners));
+    to.pinches.upload(session, std::span<const Index>(begin));
+    to.corners.upload(session, std::span<const Index>(corners));
   }
 
   void set_rule_uniforms(GLuint rule, bool last_resort) const {
     const Uniforms program(session_, rule);
-    program.set("triangle_count", mesh_.face_count());
+    program.set("triangle_count", domain_.face_count());
     program.set("radius", radius_);
     program.set("last_resort", std::size_t{last_resort});
     program.set("cell_count", cells());
   }
 
   bool pass_pinches() {
-    if (mesh_.pinched().empty()) return false;
+    if (domain_.pinched().empty()) return false;
     return 0 < workspace_.front.add(session_, [&] {
       const Uniforms program(session_, session_.program("surface_pinch.comp"));
-      program.set("triangle_count", mesh_.face_count());
+      program.set("triangle_count", domain_.face_count());
       program.set("radius", radius_);
-      program.set("pinch_count", mesh_.pinched().size());
+      program.set("pinch_count", domain_.pinched().size());
       program.set("fields", fields_);
       buffers_.triangles.bind(session_, 5);
       buffers_.pinches.bind(session_, 6);
       buffers_.corners.bind(session_, 7);
-      dispatch(session_, fields_ * mesh_.pinched().size());
+      dispatch(session_, fields_ * domain_.pinched().size());
     });
   }
 
@@ -153,38 +137,18 @@ class SurfaceRun {
   }
 
   void set_read_out_uniforms(const Uniforms& program, bool who) {
-    program.set("triangle_count", mesh_.face_count());
+    program.set("triangle_count", domain_.face_count());
     program.set("cell_count", cells());
-    program.set("vertex_count", mesh_.vertex_count());
+    program.set("vertex_count", domain_.vertex_count());
     program.set("who", std::size_t{who});
     buffers_.triangles.bind(session_, 5);
     workspace_.vertex_best.bind(session_, 6);
     workspace_.vertex_source.bind(session_, 7);
   }
-
-  const Job job_;
-  const Domain& mesh_;
-  GLWorkspace::Implementation& workspace_;
-  const Session& session_;
-  SurfaceBuffers& buffers_;
-  float radius_;
-  std::size_t fields_ = 1;
 };
 
 }  // namespace
 
-void solve_points(const GL& executor, const TriangleMesh<float>& domain,
-                  std::span<const PointSource> sources, const PropagateOptions& options,
-                  GLWorkspace& workspace, DistanceField<float>& field) {
-  gl::solve_nearest<SurfaceRun>(executor, domain, sources, options, workspace, field);
-}
-
-bool each_point(const GL& executor, const TriangleMesh<float>& domain,
-                std::span<const PointSource> sources, const PropagateOptions& options,
-                GLWorkspace& workspace, std::span<float> distance) {
-  return gl::solve_each<SurfaceRun>(executor, domain, sources, options, workspace, distance);
-}
-
-PLEXWAY_COMPILE(GL, TriangleMesh<float>)
+PLEXWAY_COMPILE_GL(SurfaceRun)
 
 }  // namespace plexway

@@ -44,41 +44,30 @@ struct WireSeeds : SeedsOf<GLuint> {
   }
 };
 
-// Several fields over one wireframe, in one launch.
-class WireRun {
+class WireRun : public RunOn<Wireframe<float>, WireBuffers> {
  public:
-  using Domain = Wireframe<float>;
   using Seeds = WireSeeds;
 
-  static void check(const Domain& wireframe, std::span<const PointSource> sources,
-                    const PropagateOptions& options) {
-    plexway::check(sources, options, wireframe);
-    check_number(sources.size());
-  }
   static std::size_t cells(const Domain& wireframe) { return wireframe.vertex_count(); }
 
-  WireRun(const Domain& wireframe, const Job& job)
-      : job_(job),
-        wireframe_(wireframe),
-        buffers_(job.workspace.domain_buffers<WireBuffers>(
-            job.session, wireframe.identity(), [&](WireBuffers& fresh) { upload(fresh); })) {}
+  WireRun(const Domain& wireframe, const Job& job) : RunOn(wireframe, job, upload) {}
 
   bool run(const WireSeeds& seeds, std::size_t fields) {
     fields_ = fields;
     const Session& session = job_.session;
     Front& front = job_.workspace.front;
-    const std::size_t cells = fields * wireframe_.vertex_count();
-    job_.start(cells, sizeof(GLuint), fields, job_.options.step * wireframe_.typical_edge());
+    const std::size_t cells = fields * domain_.vertex_count();
+    job_.start(cells, sizeof(GLuint), fields, job_.options.step * domain_.typical_edge());
     front.seed<GLuint>(session, seeds.waiting, seeds.labels);
     const GLuint rule = session.program("wire_round.comp");
     const Uniforms program(session, rule);
-    program.set("vertex_count", wireframe_.vertex_count());
-    program.set("radius", static_cast<float>(job_.options.radius / wireframe_.unit()));
+    program.set("vertex_count", domain_.vertex_count());
+    program.set("radius", static_cast<float>(job_.options.radius / domain_.unit()));
     buffers_.rows.bind(session, 5);
     buffers_.arcs.bind(session, 6);
     const bool complete =
         front.spread(session, rule, session.context().group(), "#define PLEXWAY_WIRES\n",
-                     reporter(job_.options, cells, wireframe_.unit()));
+                     reporter(job_.options, cells, domain_.unit()));
     job_.workspace.rounds = front.state().rounds;
     return complete;
   }
@@ -87,37 +76,20 @@ class WireRun {
     const Front& front = job_.workspace.front;
     finish(job_,
            {buffers_.inside, front.cells(), sizeof(Cell) / sizeof(GLuint), front.labels(),
-            wireframe_.vertex_count(), fields_, wireframe_.unit()},
+            domain_.vertex_count(), fields_, domain_.unit()},
            distance, label);
   }
 
  private:
-  void upload(WireBuffers& to) {
-    to.rows.upload(job_.session, wireframe_.begin());
-    to.arcs.upload(job_.session, wireframe_.arcs());
-    to.inside.upload(job_.session, wireframe_.vertices_inside());
+  static void upload(const Session& session, const Domain& wireframe, WireBuffers& to) {
+    to.rows.upload(session, wireframe.begin());
+    to.arcs.upload(session, wireframe.arcs());
+    to.inside.upload(session, wireframe.vertices_inside());
   }
-
-  const Job job_;
-  const Domain& wireframe_;
-  WireBuffers& buffers_;
-  std::size_t fields_ = 1;
 };
 
 }  // namespace
 
-void solve_points(const GL& executor, const Wireframe<float>& domain,
-                  std::span<const PointSource> sources, const PropagateOptions& options,
-                  GLWorkspace& workspace, DistanceField<float>& field) {
-  gl::solve_nearest<WireRun>(executor, domain, sources, options, workspace, field);
-}
-
-bool each_point(const GL& executor, const Wireframe<float>& domain,
-                std::span<const PointSource> sources, const PropagateOptions& options,
-                GLWorkspace& workspace, std::span<float> distance) {
-  return gl::solve_each<WireRun>(executor, domain, sources, options, workspace, distance);
-}
-
-PLEXWAY_COMPILE(GL, Wireframe<float>)
+PLEXWAY_COMPILE_GL(WireRun)
 
 }  // namespace plexway

@@ -21,6 +21,11 @@ constexpr Index tet_edge(Index i, Index j) {
   return i < j ? j * (j - 1) / 2 + i : i * (i - 1) / 2 + j;
 }
 
+/// Corners of the face opposite to corner i, anticlockwise as seen from outside.
+inline constexpr Index tet_faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+/// The same as seen from inside, from corner i.
+inline constexpr Index tet_faces_inside[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+
 /// A point or a direction in space.
 template <class Real>
 struct Vector3 {
