@@ -6,7 +6,9 @@ namespace plexway {
 
 AnyExecutor fastest_executor(const AnyDomain& domain, std::size_t sources,
                              const PropagateOptions& options, const OpenMP& team) {
-  if (!openmp_built() || options.schedule == Schedule::priority) return Serial{};
+  if (!openmp_built() || options.schedule == Schedule::priority ||
+      domain.kind() == DomainKind::simplices)  // whose fields are one thread's
+    return Serial{};
   const bool in_pieces = domain.kind() == DomainKind::surface ||
                          domain.kind() == DomainKind::cloud || domain.kind() == DomainKind::solid ||
                          domain.kind() == DomainKind::wireframe;

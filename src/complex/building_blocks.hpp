@@ -49,6 +49,28 @@ void gather_blocks(std::size_t count, int threads, const Work& work, const Take&
   });
 }
 
+/// Names vertices by their first use at the corners of simplices, which have the names from then
+/// on; those of no simplex come behind. `first_use` gets how many were named before each block.
+/// Returns how many simplices have.
+template <class Corners>
+std::size_t name_vertices(Corners& corners, std::vector<Index>& vertex_to_inside,
+                          std::vector<Index>& first_use) {
+  Index fresh = 0;
+  for (std::size_t s = 0; s < corners.size(); ++s) {
+    if (s % building_block == 0) first_use.push_back(fresh);
+    for (Index& v : corners[s]) {
+      Index& name = vertex_to_inside[v];
+      if (name == none) name = fresh++;
+      v = name;
+    }
+  }
+  const std::size_t named = fresh;
+  if (named < vertex_to_inside.size())
+    for (Index& name : vertex_to_inside)
+      if (name == none) name = fresh++;
+  return named;
+}
+
 /// Of points.
 struct Box3 {
   std::array<double, 3> low, high;

@@ -187,19 +187,7 @@ void FaceLayout::number_faces(int threads) {
 // Replaces the caller's vertices at the corners.
 void FaceLayout::name_vertices(std::size_t vertices) {
   vertex_to_inside.assign(vertices, none);
-  Index fresh = 0;
-  for (std::size_t f = 0; f < corner.size(); ++f) {
-    if (f % building_block == 0) first_use.push_back(fresh);
-    for (Index& v : corner[f]) {
-      Index& name = vertex_to_inside[v];
-      if (name == none) name = fresh++;
-      v = name;
-    }
-  }
-  named = fresh;
-  if (named < vertices)
-    for (Index& name : vertex_to_inside)
-      if (name == none) name = fresh++;
+  named = plexway::name_vertices(corner, vertex_to_inside, first_use);
 }
 
 std::vector<Index> FaceLayout::vertices_outside(int threads) const {

@@ -25,19 +25,7 @@ TetLayout::TetLayout(std::size_t vertices, Tets tets, std::vector<Index> order,
       corner[i] = tets[t];
     }
   });
-  Index fresh = 0;
-  for (std::size_t i = 0; i < m; ++i) {
-    if (i % building_block == 0) first_use.push_back(fresh);
-    for (Index& v : corner[i]) {
-      Index& name = vertex_to_inside[v];
-      if (name == none) name = fresh++;
-      v = name;
-    }
-  }
-  named = fresh;
-  if (named < vertices)
-    for (Index& name : vertex_to_inside)
-      if (name == none) name = fresh++;
+  named = name_vertices(corner, vertex_to_inside, first_use);
   over_blocks(m, threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
       if (turn[tet[i]] != 0) std::swap(corner[i][2], corner[i][3]);

@@ -8,27 +8,13 @@
 #include <vector>
 
 #include "io/extension.hpp"
+#include "quote.hpp"
 
 namespace plexway::io {
 namespace {
 
 std::string part_name(const std::filesystem::path& file, std::size_t part) {
   return file.stem().string().append("_").append(std::to_string(part)).append(".vtu");
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
 }
 
 }  // namespace
@@ -115,7 +101,7 @@ void write_pvtu(const std::filesystem::path& file, const Field& whole,
   array("Float64", "Points", " NumberOfComponents=\"3\"");
   out.write("    </PPoints>\n");
   for (const std::size_t part : parts)
-    out.write("    <Piece Source=\"" + escaped(part_name(file, part)) + "\"/>\n");
+    out.write("    <Piece Source=\"" + escape_xml(part_name(file, part)) + "\"/>\n");
   out.write("  </PUnstructuredGrid>\n</VTKFile>\n");
   out.commit();
 }

@@ -14,4 +14,20 @@ inline std::string quote(std::string_view piece) {
   return out + "'";
 }
 
+/// Text for XML, in an element or between quotes; control characters become blanks.
+inline std::string escape_xml(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return out;
+}
+
 }  // namespace plexway::io

@@ -10,26 +10,12 @@
 #include "finish.hpp"
 #include "io/base64.hpp"
 #include "io/output_file.hpp"
+#include "io/quote.hpp"
 #include "png_bytes.hpp"
 #include "sight.hpp"
 
 namespace plexway::render {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  }
-  return out;
-}
 
 // Hundredths of a pixel.
 std::string number(double x) {
@@ -96,8 +82,8 @@ class SvgSheet final : public Sheet {
     // has it, so that it ends within the picture whatever the typeface.
     body += "<text x=\"" + number(at[0]) + "\" y=\"" + number(at[1]) + "\" font-size=\"" +
             number(size / 0.72) + "\" textLength=\"" + number(text_width(line, size)) +
-            "\" lengthAdjust=\"spacingAndGlyphs\"" + paint("fill", ink) + ">" + escaped(line) +
-            "</text>\n";
+            "\" lengthAdjust=\"spacingAndGlyphs\"" + paint("fill", ink) + ">" +
+            io::escape_xml(line) + "</text>\n";
   }
   void path(const std::string& d, const std::string& attributes) {
     if (!d.empty()) body += "<path d=\"" + d + "\"" + attributes + "/>\n";
@@ -224,7 +210,7 @@ void write_svg(const std::filesystem::path& file, const Scene& scene, const Pict
   out.write("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
   out.write("<svg xmlns=\"http://www.w3.org/2000/svg\"" + size + " viewBox=\"0 0 " +
             std::to_string(options.width) + " " + std::to_string(options.height) + "\">\n");
-  out.write("<title>" + escaped(options.title) + "</title>\n");
+  out.write("<title>" + io::escape_xml(options.title) + "</title>\n");
   out.write("<image" + size + " href=\"data:image/png;base64,");
   out.write(io::encode_base64(png_bytes(reduced(drawn), colours)));
   out.write("\"/>\n");

@@ -65,26 +65,6 @@ TEST_CASE("distance is as accurate as it is asked to be, and says so") {
   CHECK(5 * mean_off(accurate.distance, exact.distance) < mean_off(fast.distance, exact.distance));
 }
 
-TEST_CASE("paths are as long as distances, whatever the accuracy and the triangles") {
-  const std::string to = "point:0.9,0.1,0.2";
-  for (const char* triangles : {"input", "delaunay", "refined"})
-    for (const char* accuracy : {"exact", "accurate"}) {
-      const auto run =
-          run_tool({"path", sample("knot.ply"), "--from", "vertex:7", "--to", "vertex:3000", "--to",
-                    to, "--accuracy", accuracy, "--triangulation", triangles, "--json", "--quiet"});
-      INFO(run.err);
-      REQUIRE(run.code == 0);
-      const auto told = run.json();
-      CHECK(told["accuracy"] == accuracy);
-      for (const auto& path : told["paths"]) {
-        CAPTURE(triangles, accuracy, path.dump());
-        CHECK(path["length"].get<double>() ==
-              Approx(path["distance"].get<double>())
-                  .epsilon(std::string(accuracy) == "exact" ? 1e-6 : 2e-3));
-      }
-    }
-}
-
 TEST_CASE("pairs and bench know the accuracy") {
   const auto pairs = run_tool({"pairs", sample("knot.ply"), "-s", "vertex:0", "-s", "vertex:900",
                                "-s", "point:1,0,0.5", "--accuracy", "exact", "--json"});

@@ -143,61 +143,6 @@ TEST_CASE("speeds by the regions of the file, and lines of equal distance on a m
   CHECK(length == Approx(0.8 * std::acos(0.)).epsilon(3e-3));
 }
 
-TEST_CASE("paths on mixed domains: over welds, along lines, refracted, in pictures") {
-  const Folder folder;
-  const std::string file = folder.write("flag.vtk", flag);
-  const std::string out = folder.write("paths.json", ""), picture = folder.write("paths.png", "");
-  const auto run = run_tool({"path", file, "--as", "mixed", "-f", "vertex:5", "-t", "vertex:0",
-                             "-t", "point:0.5,0.25,0", "-t", "vertex:6", "-t", "vertex:5", "-o",
-                             out, "--picture", picture, "--json"});
-  INFO(run.err);
-  REQUIRE(run.code == 0);
-  const auto paths = run.json()["paths"];
-  CHECK(paths[0]["length"].get<double>() == Approx(4 + std::sqrt(2)).epsilon(1e-6));
-  CHECK(paths[0]["distance"].get<double>() == Approx(4 + std::sqrt(2)).epsilon(1e-6));
-  CHECK(paths[1]["length"].get<double>() == Approx(4 + std::hypot(.5, .75)).epsilon(1e-6));
-  CHECK(paths[1]["distance"].get<double>() == Approx(4 + std::hypot(.5, .75)).epsilon(1e-6));
-  CHECK(paths[2]["from"].is_null());
-  CHECK(paths[3]["length"] == 0);
-  CHECK_THAT(run.err, Contains("1 target not reached"));
-  CHECK(io_testing::bytes_of(picture).size() > 1000);
-  const auto written = nlohmann::json::parse(io_testing::bytes_of(out))["paths"][0];
-  CHECK(written["positions"].back()[2].get<double>() == 4);
-  CHECK(written["points"][0]["simplex"].get<int>() == 2);      // the second triangle
-  CHECK(written["points"].back()["simplex"].get<int>() == 1);  // the upper edge
-
-  // Up the line at twice the speed: the length is a time.
-  const std::string regions = "regions:" + folder.write("r.txt", "0 2\n1 1\n").string();
-  const std::string fast =
-      folder.write("fast.vtk", flag + "CELL_DATA 3\nFIELD f 1\nregion 1 3 int\n1 1 0\n");
-  const auto timed = run_tool({"path", fast, "--as", "mixed", "-f", "vertex:5", "-t", "vertex:0",
-                               "--metric", regions, "--json"});
-  INFO(timed.err);
-  REQUIRE(timed.code == 0);
-  CHECK(timed.json()["paths"][0]["length"].get<double>() == Approx(2 + std::sqrt(2)).epsilon(1e-6));
-  CHECK(timed.json()["paths"][0]["length_in_space"].get<double>() ==
-        Approx(4 + std::sqrt(2)).epsilon(1e-6));
-
-  // Two squares in two files, the second at half the speed.
-  const std::string left = folder.write("left.off", square_at(0, 6));
-  const std::string right = folder.write("right.off", square_at(1, 6));
-  std::string speeds;
-  for (int s = 0; s < 100; ++s) speeds += s < 50 ? "1\n" : "0.5\n";
-  const auto both = run_tool(
-      {"path", left, right, "--weld", "1e-9", "-f", "vertex:0", "-t", "vertex:71", "--metric",
-       "speed:" + folder.write("s.txt", speeds).string(), "--json", "--precision", "double"});
-  INFO(both.err);
-  REQUIRE(both.code == 0);
-  double least = 1e9;  // over any point of the line between
-  for (int i = 0; i <= 100000; ++i) {
-    const double y = i / 1e5;
-    least = std::min(least, std::hypot(1, y) + 2 * std::hypot(1, 1 - y));
-  }
-  const auto one = both.json()["paths"][0];
-  CHECK(one["length"].get<double>() == Approx(least).epsilon(1e-9));
-  CHECK(one["distance"].get<double>() == Approx(least).epsilon(2e-3));
-}
-
 TEST_CASE("several files are welded to a mixed domain") {
   const Folder folder;
   const std::string left = folder.write("left.off", square_at(0, 6));

@@ -255,35 +255,6 @@ TEST_CASE("pairs go around what is masked") {
   }
 }
 
-TEST_CASE("rows of solids whose speeds jump, and of mixed domains, are those of distance") {
-  // Such a solid is solved as regions, whose vertices have numbers of their own.
-  const testing::Folder folder;
-  const std::string elbow = sample("elbow.mesh"), rows = folder.write("rows.txt", "0\n17\n5\n");
-  std::string speeds;
-  for (int t = 0; t < 1152; ++t) speeds += t % 3 == 0 ? "2\n" : "1\n";
-  const std::string metric = "speed:" + folder.write("speeds.txt", speeds).string();
-  const std::string out = folder.at("d.npy"), one = folder.at("one.npy");
-  const auto check = [&](const std::vector<std::string>& what, const std::string& input) {
-    const auto run = [&](std::vector<std::string> words) {
-      words.insert(words.begin() + 1, input);
-      words.insert(words.end(), what.begin(), what.end());
-      const Outcome done = run_tool(words);
-      INFO(done.err);
-      REQUIRE(done.code == 0);
-    };
-    run({"pairs", "--sources", rows, "--out", out, "--quiet"});
-    std::vector<double> all;
-    for (const char* vertex : {"vertex:0", "vertex:17", "vertex:5"}) {
-      run({"distance", "--source", vertex, "--out", one, "--quiet"});
-      const auto d = matrix(one);
-      all.insert(all.end(), d.begin(), d.end());
-    }
-    CHECK(matrix(out) == all);
-  };
-  check({"--metric", metric}, elbow);
-  check({}, elbow);
-}
-
 TEST_CASE("a matrix killed twenty times is bit for bit one that was not") {
   const testing::Folder folder;
   const std::string input = folder.write("square.off", square_off(50));
@@ -318,31 +289,6 @@ TEST_CASE("a matrix killed twenty times is bit for bit one that was not") {
   CHECK(content(parts) == expected);
   CHECK(last.json()["asymmetry"] == undisturbed.json()["asymmetry"]);
   CHECK(folder.files() == 3);
-}
-
-TEST_CASE("a sparse matrix killed on the way is bit for bit one that was not") {
-  const testing::Folder folder;
-  const std::string input = folder.write("square.off", square_off(50));
-  const std::string whole = folder.at("whole.npz"), parts = folder.at("parts.npz");
-  const auto command = [&](const std::string& out) {
-    return std::vector<std::string>{"pairs",     input, "--sources", "all", "--radius", "0.2",
-                                    "--nearest", "150", "--out",     out,   "--json"};
-  };
-  const Outcome undisturbed = run_tool(command(whole));
-  REQUIRE(undisturbed.code == 0);
-  const int about = static_cast<int>(1000 * undisturbed.json()["seconds"]["solve"].get<double>());
-  std::mt19937 random(2);
-  for (int kills = 0; kills < 8;) {
-    const int wait = 1 + static_cast<int>(random() % static_cast<unsigned>(about / 2 + 20));
-    const Outcome run = run_tool_and_kill(command(parts), wait);
-    if (run.code != 0) ++kills;
-    if (run.code == 0) {
-      REQUIRE(content(parts) == content(whole));
-      fs::remove(parts);
-    }
-  }
-  REQUIRE(run_tool(command(parts)).code == 0);
-  CHECK(content(parts) == content(whole));
 }
 
 TEST_CASE("pairs write HDF5 that h5py reads, whole after any number of kills") {

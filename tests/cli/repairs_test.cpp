@@ -49,24 +49,6 @@ Spike spike(double height, std::uint32_t seed) {
 
 }  // namespace
 
-TEST_CASE("the tool never gives a distance below the straight line through space") {
-  const Folder folder;
-  for (const double height : {100., 10000.})
-    for (const char* triangles : {"auto", "delaunay", "refined", "input"}) {
-      const Spike s = spike(height, 5);
-      CAPTURE(height, triangles);
-      const auto run = run_tool({"distance", folder.write("spike.off", s.off), "--source",
-                                 "vertex:63", "--triangulation", triangles, "--out", "-"});
-      REQUIRE(run.code == 0);
-      const std::vector<double> d = csv_column(run.out, "distance");
-      REQUIRE(d.size() == 64);
-      for (std::size_t v = 0; v < 63; ++v) {
-        const auto &p = s.positions[v], &q = s.positions[63];
-        CHECK(d[v] >= std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) * (1 - 1e-6));
-      }
-    }
-}
-
 TEST_CASE("path and distance tell of each other, and counts of repairs are in the summary") {
   const Folder folder;
   const std::string file = folder.write("spike.off", spike(3, 9).off);

@@ -189,45 +189,6 @@ TEST_CASE("bench measures solids") {
 #endif
 }
 
-TEST_CASE("bench splits the errors of solids by how far paths are from straight") {
-  const Folder folder;
-  const auto solid = plexway::io::read_tets(sample("elbow.mesh"));
-  const auto far_end = std::find(solid.positions.begin(), solid.positions.end(), Point{2, 0, 0});
-  REQUIRE(far_end != solid.positions.end());
-  const auto source = far_end - solid.positions.begin();
-  // Too long by a quarter in sight, exact behind the edge (but for the solver's own few 1e-5).
-  std::ostringstream truth;
-  std::size_t in_sight = 0;
-  for (const Point& p : solid.positions) {
-    const double exact = in_elbow(*far_end, p);
-    in_sight += exact > 0 && exact < between(*far_end, p) * (1 + 1e-12);
-    truth << (exact < between(*far_end, p) * (1 + 1e-12) ? .8 * exact : exact) << '\n';
-  }
-  const auto run =
-      run_tool({"bench", sample("elbow.mesh"), "-s", "vertex:" + std::to_string(source), "--truth",
-                folder.write("truth.txt", truth.str()), "--repeats", "1", "--json", "--anatomy",
-                "--precision", "double"});
-  INFO(run.err);
-  REQUIRE(run.code == 0);
-  double share = 0;
-  std::size_t vertices = 0;
-  const auto json = run.json();
-  for (const auto& row : json["anatomy"]) {
-    if (row["split"] != "sight") continue;
-    vertices += row["vertices"].get<std::size_t>();
-    share += row["share"].get<double>();
-    if (row["class"] != "in sight") {
-      CHECK(row["mean"].get<double>() < 1e-3);
-      continue;
-    }
-    CHECK(row["vertices"] == in_sight);
-    CHECK(row["above"].get<double>() == Approx(.25).epsilon(1e-3));
-  }
-  CHECK(share == Approx(1));
-  CHECK(vertices == solid.positions.size() - 1);
-  CHECK(in_sight < vertices);
-}
-
 TEST_CASE("bad solids are refused with file and cause") {
   const Folder folder;
   const auto refused = [&](const std::string& file, int code, const std::string& start) {

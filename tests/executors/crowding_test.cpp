@@ -12,26 +12,6 @@
 
 namespace plexway::testing::crowding_test {
 
-TEST_CASE("a team that gains nothing leaves the work to one thread, and tries again later") {
-  Crowding::report(2, 1);
-  CHECK_FALSE(Crowding::crowded());
-  Crowding::report(0.6, 1);
-  CHECK(Crowding::crowded());
-  while (Crowding::crowded()) std::this_thread::yield();
-  Crowding::report(1.1, 1);  // neither
-  CHECK_FALSE(Crowding::crowded());
-  Crowding::report(2, 1);
-}
-
-TEST_CASE("clocks of threads go on while they work, and not while they wait") {
-  const double now = seconds_on_wall(), begin = seconds_of_thread();
-  while (seconds_on_wall() - now < 5e-3) {
-  }
-  const double worked = seconds_of_thread() - begin;
-  CHECK(worked > 0);
-  CHECK(worked <= seconds_on_wall() - now);
-}
-
 TEST_CASE("the same bits whoever works, and though that changes in between", "[threads]") {
   std::atomic<bool> done{false};
   std::thread other([&] {

@@ -1,6 +1,5 @@
 #include <catch2/catch.hpp>
 
-#include <thread>
 #include <type_traits>
 
 #include <plexway/error.hpp>
@@ -9,7 +8,6 @@
 #include "complex/test_wires.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
-#include "executors/team_cases.hpp"
 #include "propagate/simplex_testing.hpp"
 #include "propagate/solid_solving.hpp"
 #include "propagate/solving.hpp"
@@ -39,34 +37,6 @@ void check_same_bits(const Domain& domain, const PropagateOptions& options, unsi
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("any number of threads gives the same bits on surfaces", "[threads]", float,
-                   double) {
-  unsigned seed = 0;
-  for (const Surface& s : surfaces())
-    for (const Visibility visibility : visibilities)
-      for (const Schedule schedule : {Schedule::dual_queue, Schedule::fifo}) {
-        if (schedule == Schedule::fifo && visibility != Visibility::saddles) continue;
-        PropagateOptions options = by_labels();
-        options.visibility = visibility;
-        options.schedule = schedule;
-        INFO("surface " << seed << " " << name(options));
-        check_same_bits(s.mesh<TestType>(), options, ++seed);
-      }
-}
-
-TEMPLATE_TEST_CASE("any number of threads gives the same bits in solids", "[threads]", float,
-                   double) {
-  unsigned seed = 0;
-  for (const Solid& s :
-       {solid_cube(5), l_shape(4), walled(6), edge_touch(3), vertex_touch(3), walled(4, 0)})
-    for (const Visibility visibility : solid_visibilities) {
-      PropagateOptions options = by_labels();
-      options.visibility = visibility;
-      INFO("solid " << seed << " " << name(options));
-      check_same_bits(s.mesh<TestType>(), options, ++seed);
-    }
-}
-
 TEMPLATE_TEST_CASE("any number of threads gives the same bits elsewhere", "[threads]", float,
                    double) {
   for (unsigned seed = 1; seed <= 4; ++seed)
@@ -75,86 +45,6 @@ TEMPLATE_TEST_CASE("any number of threads gives the same bits elsewhere", "[thre
   check_same_bits(cube_grid<2>(12).template complex<TestType>(), by_labels(), 2);
   check_same_bits(cube_grid<3>(5, 3).template complex<TestType>(), by_labels(), 3);
   check_same_bits(cube_grid<4>(3).template complex<TestType>(), by_labels(), 4);
-}
-
-TEST_CASE("200 solves on eight threads are one", "[threads]") {
-  const auto mesh = sphere(4).mesh<float>();
-  const auto sources = random_sources(mesh, 5, 1);
-  Workspace<float> workspace;
-  DistanceField<float> first, field;
-  solve(team(8), mesh, sources, by_labels(), workspace, first);
-  std::size_t others = 0;
-  for (int i = 0; i < 200; ++i) {
-    solve(team(8), mesh, sources, by_labels(), workspace, field);
-    others += !same_bits(first, field);
-  }
-  CHECK(others == 0);
-}
-
-TEST_CASE("queues grow when every vertex is a source", "[threads]") {
-  for (const int threads : {1, 8}) check_every_vertex_a_source(team(threads));
-}
-
-TEST_CASE("a team keeps radius, offsets and sources inside triangles", "[threads]") {
-  check_radius_and_offsets(team(4));
-}
-
-TEST_CASE("a team stops where it is told", "[threads]") {
-  const auto mesh = grid(60, 60).mesh<float>();
-  PropagateOptions options = by_labels();
-  const auto whole = solve(team(4), mesh, PointSource::at(0), options);
-  CHECK(whole.complete);
-  for (const std::size_t most : {0u, 1u, 100u, 3000u}) {
-    options.max_expansions = most;
-    const auto field = solve(team(4), mesh, PointSource::at(0), options);
-    CHECK(!field.complete);
-    CHECK(field.statistics.expansions == most);
-    CHECK(field.distance[0] == 0);
-    bool no_less = true;
-    for (std::size_t v = 0; v < field.distance.size(); ++v)
-      no_less = no_less && field.distance[v] >= whole.distance[v] * (1 - 1e-5f);
-    CHECK(no_less);
-  }
-  options.max_expansions = whole.statistics.expansions;
-  CHECK(same_bits(whole, solve(team(4), mesh, PointSource::at(0), options)));
-}
-
-TEST_CASE("a team reports to the calling thread and can be cancelled", "[threads]") {
-  check_reports(team(4), by_labels());
-}
-
-TEST_CASE("so it is while vertices of a flat domain tell each other", "[threads]") {
-  const HoledCube<3> cube(24);  // vertices for several threads
-  const auto domain = cube.complex<double>();
-  const PointSource source = PointSource::at(0);
-  const auto caller = std::this_thread::get_id();
-  bool by_caller = true;
-  PauseWatch watch;
-  PropagateOptions options;
-  options.progress = [&](const Progress& p) {
-    by_caller = by_caller && std::this_thread::get_id() == caller;
-    return watch(p);
-  };
-  const auto whole = solve(team(4), domain, source, options);
-  CHECK(by_caller);
-  const int calls = watch.calls;
-  CHECK(calls > 0);
-  for (const int cancelled_at : {1, (calls + 1) / 2}) {
-    watch = {};
-    watch.cancelled_at = cancelled_at;
-    CHECK_THROWS_AS(solve(team(4), domain, source, options), Cancelled);
-    CHECK(watch.calls == cancelled_at);
-  }
-  struct Own {};
-  watch = {};
-  options.progress = [&](const Progress& p) -> bool {
-    watch(p);
-    if (watch.calls > 0) throw Own{};
-    return true;
-  };
-  CHECK_THROWS_AS(solve(team(4), domain, source, options), Own);
-  options.progress = nullptr;
-  CHECK(same_bits(whole, solve(team(4), domain, source, options)));
 }
 
 TEST_CASE("a team refuses what needs order, and settings that make no sense", "[threads]") {
