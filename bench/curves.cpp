@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <plexway/apps/path_field.hpp>
+#include <plexway/paths/path_field.hpp>
 
-#include "../data/shapes.hpp"
+#include "data/shapes.hpp"
 #include "solver.hpp"
 
 namespace bench::curves {

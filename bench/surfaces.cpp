@@ -7,10 +7,10 @@
 #include <numbers>
 #include <random>
 
-#include <plexway/complex/intrinsic_delaunay.hpp>
+#include <plexway/surface/intrinsic_delaunay.hpp>
 
-#include "../data/corner_domains.hpp"
-#include "../data/long_strips.hpp"
+#include "data/corner_domains.hpp"
+#include "data/long_strips.hpp"
 #include "peers.hpp"
 #include "scenes.hpp"
 #include "solver.hpp"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "complex/fill_rows.hpp"
+#include "complexes/common/fill_rows.hpp"
 #include "skins.hpp"
 
 namespace plexway::render {

@@ -10,7 +10,7 @@
 #include <plexway/solve.hpp>
 
 #include "gl/device.hpp"
-#include "propagate/solid_closed_forms.hpp"
+#include "labels/solid_closed_forms.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::solid_test {

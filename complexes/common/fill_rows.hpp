@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include <plexway/common/ids.hpp>
+
+namespace plexway {
+
+/// Values by a key, one row a key, row k from begin[k] to begin[k + 1], each in the order in which
+/// its values come. `each(add)` calls add(key, value) for all of them; it is called twice, first to
+/// count.
+template <class T, class Each>
+void fill_rows(std::size_t keys, std::vector<Index>& begin, std::vector<T>& values,
+               const Each& each) {
+  begin.assign(keys + 1, 0);
+  each([&](Index key, const T&) { ++begin[key + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  values.resize(begin[keys]);
+  std::vector<Index> end(begin.begin(), begin.end() - 1);  // of the row as filled so far
+  each([&](Index key, const T& value) { values[end[key]++] = value; });
+}
+
+}  // namespace plexway

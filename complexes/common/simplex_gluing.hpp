@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <plexway/simplicial/detail/simplex_record.hpp>
+
+#include "complexes/common/fill_rows.hpp"
+
+namespace plexway {
+
+/// For each facet (N + 1) s + i of simplices with ascending corners: the facet with the same
+/// vertices that it is glued to, or none. More than two form a cycle. Cost: n log n at worst.
+template <int N>
+std::vector<Index> glue_facets(std::size_t vertices,
+                               std::span<const std::array<Index, N + 1>> simplices) {
+  using Layout = SimplexLayout<N>;
+  constexpr std::size_t sides = N + 1;
+  const auto vertex = [&](Index facet, std::size_t k) {
+    return simplices[facet / sides][Layout::corner(facet % sides, k)];
+  };
+  // In buckets by their first vertex, then sorted by the others.
+  std::vector<Index> begin, bucket;
+  fill_rows(vertices, begin, bucket, [&](const auto& add) {
+    for (Index f = 0; f < simplices.size() * sides; ++f) add(vertex(f, 0), f);
+  });
+  const auto same = [&](Index a, Index b) {
+    for (std::size_t k = 1; k < N; ++k)
+      if (vertex(a, k) != vertex(b, k)) return false;
+    return true;
+  };
+  std::vector<Index> across(bucket.size(), none);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto first = bucket.begin() + begin[v], last = bucket.begin() + begin[v + 1];
+    std::sort(first, last, [&](Index a, Index b) {
+      for (std::size_t k = 1; k < N; ++k)
+        if (vertex(a, k) != vertex(b, k)) return vertex(a, k) < vertex(b, k);
+      return a < b;
+    });
+    for (auto run = first; run != last;) {
+      auto end = run + 1;
+      while (end != last && same(*run, *end)) ++end;
+      if (end - run > 1)
+        for (auto f = run; f != end; ++f) across[*f] = f + 1 == end ? *run : *(f + 1);
+      run = end;
+    }
+  }
+  return across;
+}
+
+}  // namespace plexway
