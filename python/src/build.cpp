@@ -104,7 +104,7 @@ struct BuildArguments {
   py::object progress;  // None or a function
 };
 
-// None; a text (any/mask_text.hpp); truth values, which are left of the vertices or the simplices;
+// None; a text (shape/mask_text.hpp); truth values, which are left of the vertices or the simplices;
 // or those of both that are closed.
 std::shared_ptr<const Mask> mask_of(const py::object& given, const AnyShape& shape) {
   if (given.is_none()) return nullptr;
