@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "complexes/common/outer_faces.hpp"
+#include "complexes/solid/outer_faces.hpp"
 
 namespace plexway {
 namespace {

@@ -9,9 +9,9 @@
 #include <plexway/solve.hpp>
 #include <plexway/tetgen/tetrahedralize.hpp>
 
+#include "bench/errors.hpp"
 #include "data/convex_obstacles.hpp"
 #include "data/obstacles.hpp"
-#include "bench/errors.hpp"
 
 namespace bench {
 
