@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
+#include <plexway/common/ids.hpp>
 #include <plexway/error.hpp>
 
 #include "executors/checks.hpp"
@@ -15,9 +17,31 @@
 #include "labels/wavefront.hpp"
 #include "labels/workspace_state.hpp"
 #include "paths/infinity.hpp"
-#include "paths/logged_queue.hpp"
 
 namespace plexway {
+
+namespace {
+
+/// A queue that writes down what was ever pushed: simplices may be listed several times.
+template <class Real, class Queue>
+class LoggedQueue {
+ public:
+  LoggedQueue(Queue queue, std::vector<Index>& log) : queue_(queue), log_(&log) {}
+  void push(Index simplex, Real distance, bool wanted = true) {
+    if (wanted) log_->push_back(simplex);
+    queue_.push(simplex, distance, wanted);
+  }
+  template <class DistanceOf>
+  bool pop(Index& simplex, DistanceOf distance_of) {
+    return queue_.pop(simplex, distance_of);
+  }
+
+ private:
+  Queue queue_;
+  std::vector<Index>* log_;
+};
+
+}  // namespace
 
 template <class Real>
 BoundedSearch<Real>::BoundedSearch(const TriangleMesh<Real>& mesh) : mesh_(&mesh) {

@@ -1,14 +1,93 @@
 #include "executors/gl/front.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 
-#include "executors/gl/readback.hpp"
+#include <plexway/error.hpp>
+
+#include "executors/gl/context.hpp"
 #include "executors/gl/uniforms.hpp"
 
 namespace plexway::gl {
+
 namespace {
+
+/// Reads a small buffer again and again while the device works on: each time it is copied aside
+/// behind what has been launched so far, and what arrives is the copy made the time before. Without
+/// persistent mapping (OpenGL 4.4) it waits for the device instead.
+class Readback {
+ public:
+  Readback(const Session& session, GLuint buffer, std::size_t bytes);
+  ~Readback();
+  Readback(const Readback&) = delete;
+  Readback& operator=(const Readback&) = delete;
+
+  /// Starts a copy. True, with `values`, if an earlier one has arrived.
+  bool next(const Session& session, void* values);
+  /// Waits for all copies and forgets them.
+  void finish(const Session& session);
+
+ private:
+  const Functions& gl_;
+  GLuint buffer_, copies_ = 0;
+  std::size_t bytes_;
+  const unsigned char* mapped_ = nullptr;
+  std::array<GLsync, 2> fences_{};
+  std::size_t started_ = 0;
+};
+
+Readback::Readback(const Session& session, GLuint buffer, std::size_t bytes)
+    : gl_(session.gl), buffer_(buffer), bytes_(bytes) {
+  if (gl_.BufferStorage == nullptr || gl_.MapBufferRange == nullptr) return;
+  const auto all = static_cast<GLsizeiptr>(fences_.size() * bytes_);
+  constexpr GLbitfield flags = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+  gl_.GenBuffers(1, &copies_);
+  gl_.BindBuffer(GL_COPY_WRITE_BUFFER, copies_);
+  gl_.BufferStorage(GL_COPY_WRITE_BUFFER, all, nullptr, flags);
+  mapped_ =
+      static_cast<const unsigned char*>(gl_.MapBufferRange(GL_COPY_WRITE_BUFFER, 0, all, flags));
+}
+
+Readback::~Readback() {
+  for (const GLsync fence : fences_)
+    if (fence != nullptr) gl_.DeleteSync(fence);
+  if (copies_ != 0) gl_.DeleteBuffers(1, &copies_);
+}
+
+bool Readback::next(const Session&, void* values) {
+  if (mapped_ == nullptr) {
+    gl_.BindBuffer(GL_COPY_READ_BUFFER, buffer_);
+    gl_.GetBufferSubData(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(bytes_), values);
+    return true;
+  }
+  const std::size_t slot = started_++ % fences_.size(), last = 1 - slot;
+  gl_.BindBuffer(GL_COPY_READ_BUFFER, buffer_);
+  gl_.BindBuffer(GL_COPY_WRITE_BUFFER, copies_);
+  gl_.CopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0,
+                        static_cast<GLintptr>(slot * bytes_), static_cast<GLsizeiptr>(bytes_));
+  fences_[slot] = gl_.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  gl_.Flush();
+  if (fences_[last] == nullptr) return false;
+  GLenum waited = GL_TIMEOUT_EXPIRED;
+  while (waited == GL_TIMEOUT_EXPIRED)
+    waited = gl_.ClientWaitSync(fences_[last], 0, GLuint64{1000000000});
+  gl_.DeleteSync(fences_[last]);
+  fences_[last] = nullptr;
+  if (waited == GL_WAIT_FAILED) throw Error("the GL device was lost while it worked");
+  std::memcpy(values, mapped_ + last * bytes_, bytes_);
+  return true;
+}
+
+void Readback::finish(const Session&) {
+  gl_.Finish();
+  for (GLsync& fence : fences_) {
+    if (fence != nullptr) gl_.DeleteSync(fence);
+    fence = nullptr;
+  }
+}
 
 constexpr GLbitfield all_that_follows =
     GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT;

@@ -5,16 +5,47 @@
 #include <limits>
 #include <span>
 
+#include <plexway/common/ids.hpp>
 #include <plexway/solve/options.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
+#include "labels/front.hpp"
 #include "labels/pieces/mail.hpp"
-#include "labels/pieces/piece_front.hpp"
 #include "labels/pieces/triangle_patches.hpp"
 #include "labels/read_out.hpp"
 #include "labels/surface/triangle_spread.hpp"
+#include "labels/wavefront.hpp"
 
 namespace plexway {
+
+/// The front inside a piece: what is offered to ghosts is their own piece's to find out.
+template <class Real, class SimplexLabel, bool kLabels>
+class PieceFront : public Wavefront<Real, SimplexLabel, DualQueue<Real>, kLabels> {
+ public:
+  using Base = Wavefront<Real, SimplexLabel, DualQueue<Real>, kLabels>;
+  using typename Base::Label;
+
+  PieceFront(const Base& base, std::size_t own) : Base(base), own_(static_cast<Index>(own)) {}
+
+  [[gnu::always_inline]] void accept(Index s, std::size_t hinge, const Label& label, Real distance,
+                                     Index source) {
+    if (s < own_) [[likely]]
+      Base::accept(s, hinge, label, distance, source);
+  }
+
+  /// So many simplices take what they are offered: those of the piece, or the ghosts, too.
+  void set_open(std::size_t simplices) { own_ = static_cast<Index>(simplices); }
+
+  /// A label from elsewhere, for a simplex of the piece or a ghost.
+  void take(Index s, std::size_t hinge, const Label& label, Real distance, Index source) {
+    const bool waits = this->reached(s) && this->waits(s);
+    Base::accept(s, hinge, label, distance, source);
+    if (waits) this->queue().note(distance);
+  }
+
+ private:
+  Index own_;
+};
 
 /// A piece of a surface in one solve. A letter is the label of a triangle at a cut, for the ghost
 /// that it is elsewhere; there it is expanded as if it were the piece's own. Not to be moved.

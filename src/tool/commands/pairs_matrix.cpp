@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -21,15 +22,31 @@
 #include "shape/kept_build.hpp"
 #include "shape/modules/hdf5_functions.hpp"
 #include "shape/pairs/pair_files.hpp"
+#include "shape/pairs/pair_tables.hpp"
 #include "tool/among.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/distance_output.hpp"
 #include "tool/report/notes.hpp"
-#include "tool/report/pairs_report.hpp"
 #include "tool/report/progress.hpp"
 
 namespace plexway::cli {
+
 namespace {
+
+/// What the rows of a matrix come to together.
+void add_statistics(const StatisticsSummary& summary, Json& json, Table& table) {
+  json["diameter"] = summary.diameter;
+  json["farthest_pair"] = {summary.from, summary.to};
+  json["radius"] = json_number(summary.radius);
+  json["mean"] = summary.mean;
+  json["pairs"] = summary.pairs;
+  table.add("diameter", short_number(summary.diameter) + ", from row " +
+                            std::to_string(summary.from) + " to vertex " +
+                            std::to_string(summary.to));
+  table.add("mean", short_number(summary.mean) + " over " + std::to_string(summary.pairs) +
+                        " pairs; the least of the rows' largest is " +
+                        short_number(summary.radius));
+}
 
 // Options and names of files that go together, before anything is read.
 void check_names(const MatrixCommand& command) {

@@ -5,9 +5,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <zlib.h>
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstddef>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,10 +20,28 @@
 
 #include "executors/threads/share_out.hpp"
 #include "file/new_file.hpp"
-#include "packed_chunk.hpp"
 
 namespace plexway::hdf5 {
+
 namespace {
+
+/// What HDF5's filters shuffle and deflate make of the bytes of a chunk: all first bytes of its
+/// numbers, all second bytes and so on, as a stream of zlib's.
+std::string packed_chunk(const std::string& bytes, std::size_t number_bytes, int level) {
+  const std::size_t count = bytes.size() / number_bytes;
+  std::string shuffled(bytes.size(), '\0');
+  for (std::size_t b = 0; b < number_bytes; ++b)
+    for (std::size_t i = 0; i < count; ++i) shuffled[b * count + i] = bytes[i * number_bytes + b];
+  uLongf size = ::compressBound(static_cast<uLong>(shuffled.size()));
+  std::string packed(size, '\0');
+  // With room for the worst case only memory can be missing.
+  if (::compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                  reinterpret_cast<const Bytef*>(shuffled.data()),
+                  static_cast<uLong>(shuffled.size()), level) != Z_OK)
+    throw std::bad_alloc();
+  packed.resize(size);
+  return packed;
+}
 
 constexpr std::size_t most_rows = 32, most_numbers = std::size_t{1} << 16;
 constexpr int level = 1;
