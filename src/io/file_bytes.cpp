@@ -12,7 +12,7 @@
 
 #include <plexway/error.hpp>
 
-#include "input_name.hpp"
+#include "extension.hpp"
 
 namespace plexway::io {
 namespace {

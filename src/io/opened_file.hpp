@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "extension.hpp"
 #include "file_bytes.hpp"
-#include "input_name.hpp"
 
 namespace plexway::io {
 

@@ -10,7 +10,6 @@
 #include <plexway/surface/smoothing.hpp>
 
 #include "io/extension.hpp"
-#include "io/input_name.hpp"
 #include "shape/modules/pcl_functions.hpp"
 
 #ifdef PLEXWAY_HAS_FLANN

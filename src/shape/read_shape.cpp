@@ -8,7 +8,7 @@
 #include <plexway/io/mixed.hpp>
 #include <plexway/shape/support.hpp>
 
-#include "io/input_name.hpp"
+#include "io/extension.hpp"
 #include "shape/arguments/require.hpp"
 #include "shape/collapsed.hpp"
 #include "shape/fill.hpp"

@@ -21,7 +21,6 @@
 #include "tool/exit_codes.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/help_pages.hpp"
-#include "tool/report/short_help.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <plexway/error.hpp>
 #include <plexway/io/triangles.hpp>
 
-#include "io/input_name.hpp"
+#include "io/extension.hpp"
 #include "io/number_rows.hpp"
 #include "io/surface/freesurfer_labels.hpp"
 

@@ -2,12 +2,14 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include <plexway/any_domain.hpp>
-
-#include "shape/errors/edge_dijkstra.hpp"
+#include <plexway/common/ids.hpp>
+#include <plexway/shape/field.hpp>
+#include <plexway/shape/shape.hpp>
 
 namespace plexway {
 
@@ -31,5 +33,20 @@ void add_random_sources(std::vector<PointSource>& sources, std::size_t count,
                              std::span<const PointSource> sources, const AnyExecutor& executor,
                              const PropagateOptions& options, std::size_t repeats,
                              const std::function<void(double share)>& progress);
+
+/// Boost.Graph's Dijkstra on the edges of a domain, to measure against; of a cloud, those to the
+/// neighbours.
+class EdgeDijkstra {
+ public:
+  virtual ~EdgeDijkstra() = default;
+  EdgeDijkstra() = default;
+  EdgeDijkstra(const EdgeDijkstra&) = delete;
+  EdgeDijkstra& operator=(const EdgeDijkstra&) = delete;
+
+  virtual void run(Index source) = 0;
+};
+
+/// Builds its graph; null where this build has no Boost.Graph.
+std::unique_ptr<EdgeDijkstra> make_edge_dijkstra(const AnyShape& domain, Precision precision);
 
 }  // namespace plexway

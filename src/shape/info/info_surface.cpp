@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "shape/info/info_report.hpp"
-#include "shape/info/triangulation_words.hpp"
+#include "shape/info/solve_words.hpp"
 #include "shape/warnings/survey.hpp"
 #include "shape/words.hpp"
 

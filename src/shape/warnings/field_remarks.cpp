@@ -9,7 +9,6 @@
 #include <plexway/cloud/point_cloud.hpp>
 #include <plexway/shape/complex.hpp>
 
-#include "shape/cloud_words.hpp"
 #include "shape/collapsed.hpp"
 #include "shape/spelling.hpp"
 #include "shape/warnings/bent_crossings.hpp"

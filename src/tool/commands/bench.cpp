@@ -17,7 +17,6 @@
 #include "tool/commands/commands.hpp"
 #include "tool/options/input.hpp"
 #include "tool/options/solve_options.hpp"
-#include "tool/options/triangulation_option.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/progress.hpp"
 

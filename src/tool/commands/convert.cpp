@@ -7,7 +7,7 @@
 #include "tool/commands/commands.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_output.hpp"
+#include "tool/report/distance_report.hpp"
 #include "tool/report/progress.hpp"
 
 namespace plexway::cli {

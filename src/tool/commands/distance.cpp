@@ -17,7 +17,6 @@
 #include "executors/same_work.hpp"
 #include "shape/arguments/require.hpp"
 #include "shape/arguments/source_argument.hpp"
-#include "shape/cloud_words.hpp"
 #include "shape/fill.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/info/rank_counts.hpp"
@@ -27,12 +26,12 @@
 #include "shape/partitioned_field.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/warnings/field_remarks.hpp"
+#include "shape/words.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/distance_command.hpp"
 #include "tool/exit_codes.hpp"
-#include "tool/report/distance_output.hpp"
+#include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/notes.hpp"
 #include "tool/report/progress.hpp"
 
 namespace plexway::cli {

@@ -7,11 +7,9 @@
 #include "tool/among.hpp"
 #include "tool/options/input.hpp"
 #include "tool/options/isoline_options.hpp"
-#include "tool/options/mask_option.hpp"
 #include "tool/options/metric_options.hpp"
 #include "tool/options/picture_options.hpp"
 #include "tool/options/solve_options.hpp"
-#include "tool/options/triangulation_option.hpp"
 
 namespace plexway::cli {
 

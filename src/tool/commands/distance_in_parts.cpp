@@ -32,9 +32,8 @@
 #include "shape/warnings/field_remarks.hpp"
 #include "tool/commands/distance_command.hpp"
 #include "tool/exit_codes.hpp"
-#include "tool/report/distance_output.hpp"
+#include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/notes.hpp"
 #include "tool/report/progress.hpp"
 
 namespace plexway::cli {

@@ -16,7 +16,7 @@
 #include "tool/commands/commands.hpp"
 #include "tool/commands/pairs_matrix.hpp"
 #include "tool/commands/sampling_command.hpp"
-#include "tool/report/distance_output.hpp"
+#include "tool/report/distance_report.hpp"
 #include "tool/report/progress.hpp"
 
 namespace plexway::cli {

@@ -25,8 +25,7 @@
 #include "shape/pairs/pair_tables.hpp"
 #include "tool/among.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_output.hpp"
-#include "tool/report/notes.hpp"
+#include "tool/report/distance_report.hpp"
 #include "tool/report/progress.hpp"
 
 namespace plexway::cli {

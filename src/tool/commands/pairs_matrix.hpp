@@ -5,10 +5,8 @@
 #include <string>
 
 #include "tool/options/input.hpp"
-#include "tool/options/mask_option.hpp"
 #include "tool/options/metric_options.hpp"
 #include "tool/options/solve_options.hpp"
-#include "tool/options/triangulation_option.hpp"
 
 namespace CLI {
 class App;

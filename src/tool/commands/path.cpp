@@ -25,13 +25,11 @@
 #include "tool/commands/commands.hpp"
 #include "tool/exit_codes.hpp"
 #include "tool/options/input.hpp"
-#include "tool/options/mask_option.hpp"
 #include "tool/options/metric_options.hpp"
 #include "tool/options/picture_options.hpp"
 #include "tool/options/solve_options.hpp"
-#include "tool/options/triangulation_option.hpp"
-#include "tool/report/distance_output.hpp"
-#include "tool/report/notes.hpp"
+#include "tool/report/console.hpp"
+#include "tool/report/distance_report.hpp"
 #include "tool/report/progress.hpp"
 
 namespace plexway::cli {

@@ -14,7 +14,7 @@
 #include "shape/point_file.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/sampling_command.hpp"
-#include "tool/report/distance_output.hpp"
+#include "tool/report/distance_report.hpp"
 #include "tool/report/progress.hpp"
 
 namespace plexway::cli {

@@ -14,9 +14,8 @@
 #include "tool/commands/commands.hpp"
 #include "tool/options/input.hpp"
 #include "tool/options/solve_options.hpp"
-#include "tool/options/triangulation_option.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_output.hpp"
+#include "tool/report/distance_report.hpp"
 #include "tool/report/progress.hpp"
 
 namespace plexway::cli {

@@ -9,7 +9,7 @@
 #include <plexway/source/point_source.hpp>
 
 #include "complexes/common/disjoint_sets.hpp"
-#include "tool/report/distance_output.hpp"
+#include "tool/report/distance_report.hpp"
 
 namespace plexway {
 

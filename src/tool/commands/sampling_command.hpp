@@ -14,7 +14,7 @@
 #include "tool/options/input.hpp"
 #include "tool/options/picture_options.hpp"
 #include "tool/options/solve_options.hpp"
-#include "tool/report/notes.hpp"
+#include "tool/report/console.hpp"
 
 namespace CLI {
 class App;

@@ -5,8 +5,6 @@
 
 #include <plexway/shape/read_options.hpp>
 
-#include "tool/options/volume_options.hpp"
-
 namespace CLI {
 class App;
 }
@@ -27,5 +25,8 @@ void add_fill_options(CLI::App& command, FillArguments& options);
 
 /// The options with the holes' points. Throws UsageError for a value out of range.
 [[nodiscard]] FillOptions filling(const FillArguments& arguments);
+
+/// Adds the options to a command, in a group of their own.
+void add_volume_options(CLI::App& command, VolumeOptions& options);
 
 }  // namespace plexway::cli

@@ -7,7 +7,7 @@
 
 #include "io/extension.hpp"
 #include "shape/level_set_file.hpp"
-#include "tool/report/distance_output.hpp"
+#include "tool/report/distance_report.hpp"
 
 namespace plexway::cli {
 

@@ -36,4 +36,15 @@ void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
   if (lengths != nullptr) table.add("metric", name_of_metric(argument, *lengths, refracting_edges));
 }
 
+void add_mask_option(CLI::App& command, MaskArgument& argument) {
+  command
+      .add_option(
+          "--mask", argument.text,
+          "where no path may go: vertices:FILE or simplices:FILE, a number (0-based) a\n"
+          "line; a vertex closes the simplices about it; FILE:3,7 closes the vertices with\n"
+          "these labels (.label.gii, .annot, .label, or one a line); regions:3,7 closes\n"
+          "these regions of a .msh, .vtu or .vtk")
+      ->type_name("WHAT");
+}
+
 }  // namespace plexway::cli

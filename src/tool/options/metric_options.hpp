@@ -1,5 +1,6 @@
 #pragma once
 
+#include "shape/arguments/mask_argument.hpp"
 #include "shape/arguments/metric_argument.hpp"
 #include "shape/info/report.hpp"
 
@@ -18,5 +19,8 @@ void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
                 std::size_t refracting_edges, Json& json);
 void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
                 std::size_t refracting_edges, Table& table);
+
+/// Adds --mask to a command.
+void add_mask_option(CLI::App& command, MaskArgument& argument);
 
 }  // namespace plexway::cli

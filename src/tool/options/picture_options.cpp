@@ -18,7 +18,7 @@
 #include "shape/shape_page.hpp"
 #include "shape/up_axis.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_output.hpp"
+#include "tool/report/distance_report.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <plexway/error.hpp>
+#include <plexway/shape/support.hpp>
 #include <plexway/support.hpp>
 
 #include "shape/arguments/require.hpp"
@@ -140,6 +141,31 @@ Precision precision_of(const SolveOptions& options) {
   if (support.refusal() != Refusal::windows_float) return typed;
   if (options.precision_given) require("--precision float", support);
   return Precision::twice;
+}
+
+void add_triangulation_option(CLI::App& command, TriangulationArgument& argument) {
+  command
+      .add_option("--triangulation", argument.name,
+                  "surfaces: which triangles to solve on: input, delaunay (the intrinsic\n"
+                  "Delaunay triangulation of the vertices), refined (that, with a quarter more\n"
+                  "vertices inside), or auto (default: what the shape of the input's triangles\n"
+                  "calls for; 'plexway info' tells). Results are for the input's vertices")
+      ->type_name("NAME")
+      ->group("How to solve");
+}
+
+Triangulation triangulation_of(const TriangulationArgument& argument) {
+  if (argument.name == "input") return Triangulation::input;
+  if (argument.name == "delaunay") return Triangulation::delaunay;
+  if (argument.name == "refined") return Triangulation::refined;
+  if (argument.name == "auto") return Triangulation::automatic;
+  throw UsageError("--triangulation '" + argument.name +
+                   "': choose one of input, delaunay, refined, auto");
+}
+
+void check_triangulation(Triangulation wanted, const Domain& domain) {
+  if (on_other_triangles(wanted))
+    require("--triangulation", support(Purpose::triangulations, domain.kind()));
 }
 
 }  // namespace plexway::cli

@@ -6,7 +6,9 @@
 #include <plexway/shape/field.hpp>
 #include <plexway/solve/options.hpp>
 
+#include "shape/info/solve_words.hpp"
 #include "tool/options/executor_argument.hpp"
+#include "tool/options/input.hpp"
 
 namespace CLI {
 class App;
@@ -40,5 +42,19 @@ Accuracy accuracy_of(const std::string& typed);
 /// check_executor and read_probe_table. What is exact is double.
 PropagateOptions propagate_options(const SolveOptions& options);
 Precision precision_of(const SolveOptions& options);
+
+/// As typed.
+struct TriangulationArgument {
+  std::string name = "auto";
+};
+
+/// Adds --triangulation to a command, in the group of the options that say how to solve.
+void add_triangulation_option(CLI::App& command, TriangulationArgument& argument);
+
+/// Throws UsageError for a name that does not exist.
+Triangulation triangulation_of(const TriangulationArgument& argument);
+
+/// Throws UsageError where `delaunay` or `refined` is asked of what is no surface.
+void check_triangulation(Triangulation wanted, const Domain& domain);
 
 }  // namespace plexway::cli

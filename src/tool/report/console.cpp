@@ -67,4 +67,9 @@ void leave_nothing_behind() {
     if (std::signal(signal, end_by) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
+void Notes::say(bool quiet) const {
+  if (quiet) return;
+  for (const std::string& text : texts_) say_note(text);
+}
+
 }  // namespace plexway::cli

@@ -13,4 +13,8 @@ namespace plexway::cli {
 /// that the tool has. Throws UsageError for another kind.
 std::string help_page(const CLI::App& tool, std::string_view kind);
 
+/// What `-h` prints of a command: its usage, the options that most need and three examples, in at
+/// most 25 lines of 80 columns. Of the tool itself its commands. `--help` has everything.
+std::string short_help(const CLI::App& app);
+
 }  // namespace plexway::cli
