@@ -81,6 +81,8 @@ std::vector<bool> used_in(const AnyShape& domain) {
   std::vector<bool> used(domain.vertices(), false);
   for (std::size_t s = 0; s < domain.simplices(); ++s)
     for (const auto v : domain.corners(s)) used[v] = true;
+  const std::span<const Index> first = domain.merged_vertices();
+  for (std::size_t v = 0; v < first.size(); ++v) used[v] = used[first[v]];
   return used;
 }
 
@@ -120,14 +122,13 @@ std::string why_unreached(const AnyDomain& solver, Reader reader) {
       why.append(", ").append(counted(apart, "vertices")).append(apart == 1 ? " is" : " are");
       why.append(" in none of its ").append(domain.simplex_name());
     }
-    const auto* const surface = std::get_if<io::Triangles>(&domain.data());
-    if (surface != nullptr && solver.components() > 1 && !surface->positions.empty())
-      if (const std::size_t twins = count_coincident(surface->positions, surface->triangles);
-          twins > 0)
+    if (solver.components() > 1)
+      if (const std::size_t twins = count_coincident(domain); twins > 0)
         why.append(", and ")
             .append(counted(twins, "vertices"))
-            .append(twins == 1 ? " lies exactly where another one does"
-                               : " lie exactly where another does");
+            .append(" lie exactly where another does; ")
+            .append(spelled(Advice::merge, reader))
+            .append(" joins them");
   }
   return why;
 }

@@ -73,7 +73,7 @@ std::vector<std::string> surface_warnings(const SurfaceSummary& summary,
   warn(summary.unreferenced_vertices, "unreferenced vertices", " in no triangle, so they get inf");
   warn(survey.coincident_vertices, "vertices",
        " exactly where another one lies: if the two sides of a seam have their own vertices, the "
-       "surface is cut along it and paths go round");
+       "surface is cut along it and paths go round; --merge 0 joins them");
   warn(summary.degenerate_faces, "degenerate triangles", " without area");
   if (!summary.orientable) warnings.emplace_back("not orientable: no harm to distances");
   if (survey.slender_share > 0.01) {

@@ -10,7 +10,8 @@ namespace plexway {
 InfoReport info_of(const AnyShape& domain, const io::Triangles& surface) {
   const AnyDomain built = measured_domain(domain);
   const auto& mesh = complex_as<TriangleMesh<double>>(built);
-  const SurfaceSummary& summary = mesh.summary();
+  SurfaceSummary summary = mesh.summary();
+  summary.unreferenced_vertices -= domain.merged_count();
   const TriangulationShape shape = measure_triangulation(mesh);
   const SurfaceSurvey survey = survey_surface(surface);
   const Bounds box{survey.low, survey.high};
