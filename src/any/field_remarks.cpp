@@ -86,11 +86,20 @@ std::vector<bool> used_in(const AnyShape& domain) {
   return used;
 }
 
-// What is known of a solid by its edges: that paths bend at notches, and that tetrahedra which
-// share edges alone look like quads of a curved surface.
+// What is known of a solid, or of simplices that do not lie flat, by its edges: that paths bend at
+// notches, and that tetrahedra which share edges alone look like quads of a curved surface.
 std::string solid_sentence(const AnyDomain& solver) {
-  if (solver.kind() != DomainKind::solid) return "";
+  if (solver.kind() != DomainKind::solid && solver.kind() != DomainKind::simplices) return "";
   return with_complex(solver, []<class C>(const C& complex) -> std::string {
+    if constexpr (C::kind == DomainKind::simplices) {
+      if (const std::size_t notches = complex.summary().notches; notches > 0)
+        return "paths bend around " +
+               counted(notches, C::dimension == 2   ? "corners"
+                                : C::dimension == 3 ? "edges"
+                                                    : "triangles") +
+               " of the boundary, which no rule sees in simplices by lengths, or of more "
+               "coordinates than dimensions: distances behind them may be up to a sixth too short";
+    }
     if constexpr (C::kind == DomainKind::solid) {
       const SolidSummary& solid = complex.summary();
       if (solid.notch_edges > 0)

@@ -58,8 +58,7 @@ std::vector<Index> first_within(std::span<const Place> points, double tolerance)
 }  // namespace
 
 void merge_vertices(AnyShape::State& state, double tolerance) {
-  if (!(tolerance >= 0) || std::isinf(tolerance))
-    throw UsageError("merge must be a number >= 0");
+  if (!(tolerance >= 0) || std::isinf(tolerance)) throw UsageError("merge must be a number >= 0");
   const auto merge = [&](auto& simplices, const std::vector<Place>& positions) {
     if (positions.empty())
       support(Reading::merging,

@@ -56,7 +56,8 @@ Spread spread_of(std::span<const double> lengths) {
 std::size_t count_coincident(const AnyShape& shape) {
   return std::visit(
       [](const auto& data) -> std::size_t {
-        if constexpr (requires { data.edges; } || requires { data.tets; } || requires { data.triangles; })
+        if constexpr (
+            requires { data.edges; } || requires { data.tets; } || requires { data.triangles; })
           if (data.positions.empty()) return 0;
         if constexpr (requires { data.triangles; })
           return count_coincident(data.positions, data.triangles);

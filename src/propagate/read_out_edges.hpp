@@ -79,11 +79,12 @@ class EdgeReadOut {
     return std::atomic_ref(distance_[v]).load(std::memory_order_relaxed);
   }
 
+  /// Not so where nothing is reached: there infinity is compared with itself.
   [[nodiscard]] bool wrong(std::size_t f) const {
     const TriangleRecord<Real>& t = triangles_[f];
     const Real a = at(t.corner[0]), b = at(t.corner[1]), c = at(t.corner[2]);
     const Real x = t.length[0], y = t.length[1], z = t.length[2];
-    return !(std::abs(a - b) <= x && std::abs(b - c) <= y && std::abs(c - a) <= z);
+    return std::abs(a - b) > x || std::abs(b - c) > y || std::abs(c - a) > z;
   }
 
   /// Calls keep(to, distance) if that is nearer.

@@ -85,7 +85,8 @@ constexpr Support support(Reading reading, const FileUse& f) {
         return Refusal::pieces_domain;
       return f.positions ? Refusal::nothing : Refusal::pieces_positions;
     case Reading::merging: {
-      const bool made = boundary || level_set || f.repaired || (f.held == surface && f.wanted == solid);
+      const bool made =
+          boundary || level_set || f.repaired || (f.held == surface && f.wanted == solid);
       const bool kind = f.wanted == surface || f.wanted == solid || f.wanted == wireframe;
       return kind && !made && f.positions ? Refusal::nothing : Refusal::merging_domain;
     }

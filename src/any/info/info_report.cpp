@@ -36,7 +36,8 @@ void add_file_report(const AnyShape& domain, Table& table) {
   if (!split.empty()) table.add("split", split);
   if (!report.passed_over.empty()) table.add("passed over", report.passed_over_text());
   if (const std::size_t merged = domain.merged_count(); merged > 0)
-    table.add("merged", counted(merged, "vertices") + (merged == 1 ? " is" : " are") + " one with an earlier one within " +
+    table.add("merged", counted(merged, "vertices") + (merged == 1 ? " is" : " are") +
+                            " one with an earlier one within " +
                             short_number(domain.merge_tolerance()));
   if (!domain.collapsed().empty()) table.add("dropped", collapsed_sentence(domain));
 }

@@ -48,9 +48,10 @@ void add_inputs(CLI::App& app, InputCommand& command) {
 }
 
 void add_merge_option(CLI::App& app, InputCommand& command) {
-  app.add_option("--merge", command.merge,
-                 "vertices of a surface, solid or wireframe that are this close are one: the sides\n"
-                 "of a seam, triangles with corners of their own (0: at one place)")
+  app.add_option(
+         "--merge", command.merge,
+         "vertices of a surface, solid or wireframe that are this close are one: the sides\n"
+         "of a seam, triangles with corners of their own (0: at one place)")
       ->type_name("TOLERANCE");
 }
 
