@@ -54,10 +54,8 @@ PointSource Domain::inside(const PointSource& point) const {
 }
 
 PointSource Domain::outside(const PointSource& point) const {
-  PointSource there = point;
-  if (const OpenSimplices* const open = any_.open_simplices(); open && point.simplex != none)
-    there.simplex = open->outside(point.simplex);
-  return there;
+  const OpenSimplices* const open = any_.open_simplices();
+  return open == nullptr ? point : open->outside(point);
 }
 
 std::vector<PointSource> Domain::outside(std::vector<PointSource> points) const {

@@ -38,14 +38,15 @@ class EdgeReadOut {
         rooms_(rooms_of(workspace)),
         distance_(workspace.vertex.data()) {}
 
-  template <class Crew>
-  Lowered run(const Crew& crew) {
+  /// Looks at `faces` triangles, which(0) and so on, ascending; in all others nothing is reached.
+  template <class Crew, class Which>
+  Lowered run(const Crew& crew, std::size_t faces, const Which& which) {
     rooms_.start();
-    const std::size_t faces = mesh_.face_count();
     if constexpr (kLabels) {
       Room& room = rooms_.take();
       crew.search(
-          faces, [&](std::size_t f) { return wrong(f); }, [&](std::size_t f) { look(f, room); });
+          faces, [&](std::size_t n) { return wrong(which(n)); },
+          [&](std::size_t n) { look(which(n), room); });
       rooms_.give_back(room);
     } else {
       std::mutex mutex;
@@ -55,7 +56,7 @@ class EdgeReadOut {
           const std::scoped_lock lock(mutex);
           room = &rooms_.take();
         }
-        for (std::size_t f = begin; f < end; ++f) look(f, *room);
+        for (std::size_t n = begin; n < end; ++n) look(which(n), *room);
         const std::scoped_lock lock(mutex);
         rooms_.give_back(*room);
       });
@@ -79,11 +80,12 @@ class EdgeReadOut {
     return std::atomic_ref(distance_[v]).load(std::memory_order_relaxed);
   }
 
+  /// Not so where nothing is reached: there infinity is compared with itself.
   [[nodiscard]] bool wrong(std::size_t f) const {
     const TriangleRecord<Real>& t = triangles_[f];
     const Real a = at(t.corner[0]), b = at(t.corner[1]), c = at(t.corner[2]);
     const Real x = t.length[0], y = t.length[1], z = t.length[2];
-    return !(std::abs(a - b) <= x && std::abs(b - c) <= y && std::abs(c - a) <= z);
+    return std::abs(a - b) > x || std::abs(b - c) > y || std::abs(c - a) > z;
   }
 
   /// Calls keep(to, distance) if that is nearer.
@@ -180,10 +182,16 @@ class EdgeReadOut {
 /// label, the best for its centre, and now and then, at a corner on a ragged boundary, that one is
 /// poor. The same bits with any crew. Cost: one pass, and n log n for the n vertices near what it
 /// changes.
+template <class Real, bool kLabels, class Crew, class Which>
+Lowered read_out_edges(const TriangleMesh<Real>& mesh, WorkspaceState<Real>& workspace,
+                       const Crew& crew, std::size_t faces, const Which& which) {
+  return EdgeReadOut<Real, kLabels>(mesh, workspace).run(crew, faces, which);
+}
 template <class Real, bool kLabels, class Crew>
 Lowered read_out_edges(const TriangleMesh<Real>& mesh, WorkspaceState<Real>& workspace,
                        const Crew& crew) {
-  return EdgeReadOut<Real, kLabels>(mesh, workspace).run(crew);
+  return read_out_edges<Real, kLabels>(mesh, workspace, crew, mesh.face_count(),
+                                       [](std::size_t f) { return f; });
 }
 
 }  // namespace plexway

@@ -43,12 +43,20 @@ class StraightLines {
   /// every other in the plane, the sources that lie about as near.
   template <bool kLabels, class Crew>
   std::size_t raise(WorkspaceState<Real>& workspace, const Crew& crew) const {
+    return raise<kLabels>(workspace, crew, workspace.vertex.size(),
+                          [](std::size_t v) { return v; });
+  }
+  /// Of `count` vertices, which(0) and so on; all others are right.
+  template <bool kLabels, class Crew, class Which>
+  std::size_t raise(WorkspaceState<Real>& workspace, const Crew& crew, std::size_t count,
+                    const Which& which) const {
     if (positions_.empty() || count_ == 0) return 0;
     std::atomic<std::size_t> raised{0};
-    crew.over(workspace.vertex.size(), [&](std::size_t begin, std::size_t end) {
+    crew.over(count, [&](std::size_t begin, std::size_t end) {
       std::size_t some = 0;
       Line line(*this, 0);
-      for (std::size_t v = begin; v < end; ++v) {
+      for (std::size_t n = begin; n < end; ++n) {
+        const std::size_t v = which(n);
         Real& d = workspace.vertex[v];
         if constexpr (kLabels) {
           if (workspace.vertex_source[v] >= count_) continue;

@@ -63,6 +63,14 @@ std::string collapsed_sentence(const AnyShape& shape) {
 
 std::shared_ptr<const Mask> without_collapsed(const AnyShape& shape,
                                               std::shared_ptr<const Mask> mask) {
+  const std::span<const Index> first = shape.merged_vertices();
+  if (mask && !first.empty()) {
+    // Whoever closes one of the vertices that are one closes the place.
+    auto whole = std::make_shared<Mask>(*mask);
+    for (Index v = 0; v < first.size(); ++v)
+      if (mask->closed_vertices()[v] != 0) whole->close_vertex(first[v]);
+    mask = std::move(whole);
+  }
   if (shape.collapsed().empty()) return mask;
   if (shape.collapsed().size() == shape.simplices())
     throw InputError("all " + counted(shape.simplices(), shape.simplex_name()) +

@@ -54,6 +54,7 @@ void write_kept_shape(KeptOut& out, const AnyShape& shape, const BuildOptions& o
   bool measured = state.lengths.has_value();
   out(measured);
   if (measured) each_of_lengths(out, *state.lengths);
+  out(state.merged, state.merge_tolerance);
 }
 
 AnyShape::State read_kept_build(KeptIn in) {
@@ -74,6 +75,11 @@ AnyShape::State read_kept_build(KeptIn in) {
   bool measured = false;
   in(measured);
   if (measured) each_of_lengths(in, state.lengths.emplace());
+  in(state.merged, state.merge_tolerance);
+  in.require(state.merged.empty() || state.merged.size() == state.vertices);
+  for (Index v = 0; v < state.merged.size(); ++v)
+    in.require(state.merged[v] <= v && state.merged[state.merged[v]] == state.merged[v]);
+  in.require(state.merge_tolerance >= 0 && std::isfinite(state.merge_tolerance));
   in.require(shape->is_sound(state.vertices, state.lengths ? &*state.lengths : nullptr));
   state.kept = std::make_shared<const KeptBuild>(KeptBuild{
       precision, triangulation, kind == DomainKind::surface, std::move(shape), std::move(in)});

@@ -4,11 +4,14 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/support.hpp>
+
+#include "shape/shape_state.hpp"
 
 namespace plexway {
 namespace {
@@ -25,7 +28,9 @@ void check(const Mask& mask, const AnyShape& shape) {
 }  // namespace
 
 OpenSimplices::OpenSimplices(const Mask& mask, const AnyShape& shape)
-    : inside_(shape.simplices(), none), reached_(shape.vertices(), 0) {
+    : inside_(shape.simplices(), none),
+      first_(shape.merged_vertices().begin(), shape.merged_vertices().end()),
+      reached_(shape.vertices(), 0) {
   check(mask, shape);
   for (std::size_t s = 0; s < inside_.size(); ++s) {
     const auto corners = shape.corners(s);
@@ -35,11 +40,30 @@ OpenSimplices::OpenSimplices(const Mask& mask, const AnyShape& shape)
     for (const Index v : corners) reached_[v] = 1;
   }
   if (outside_.empty()) throw InputError("the mask closes all of it");
+  spread(reached_);
 }
 
 void OpenSimplices::outside(Path& path) const {
   for (PathPoint& at : path.points)
     if (at.simplex != none) at.simplex = outside_[at.simplex];
+}
+
+PointSource OpenSimplices::outside(const PointSource& point) const {
+  PointSource there = point;
+  if (point.simplex != none) there.simplex = outside_[point.simplex];
+  return there;
+}
+
+std::vector<Index> OpenSimplices::columns(std::span<const Index> columns) const {
+  std::vector<Index> there(columns.begin(), columns.end());
+  if (first_.empty()) return there;
+  if (there.empty()) return first_;
+  for (Index& v : there) v = first_[v];
+  return there;
+}
+
+void OpenSimplices::spread(AnyField& field) const {
+  std::visit([&](auto& f) { spread(f.distance), spread(f.label), spread(f.error); }, field.data);
 }
 
 Index OpenSimplices::numbered(Index simplex) const {
@@ -54,6 +78,7 @@ Index OpenSimplices::numbered(Index simplex) const {
 PointSource OpenSimplices::inside(const PointSource& point) const {
   PointSource there = point;
   if (point.vertex == none && point.simplex != none) there.simplex = numbered(point.simplex);
+  if (point.vertex < first_.size()) there.vertex = first_[point.vertex];
   return there;
 }
 
@@ -70,6 +95,8 @@ Source OpenSimplices::inside(const Source& source) const {
           for (PointSource& point : one.points) point = inside(point);
         else if constexpr (std::is_same_v<Kind, SimplexSource>)
           one.simplex = numbered(one.simplex);
+        else if constexpr (std::is_same_v<Kind, VertexSource>)
+          for (Index& v : one.vertices) v = v < first_.size() ? first_[v] : v;
       },
       there);
   return there;
@@ -78,6 +105,14 @@ Source OpenSimplices::inside(const Source& source) const {
 AnyShape AnyShape::open_part(const Mask& mask) const {
   if (kind() != DomainKind::mixed) support(Purpose::masks, kind()).require();
   check(mask, *this);
+  if (!state_->merged.empty()) {
+    State alone = *state_;
+    alone.merged.clear();
+    State open = of(std::move(alone)).open_part(mask).state();
+    open.merged = state_->merged;
+    open.merge_tolerance = state_->merge_tolerance;
+    return of(std::move(open));
+  }
   const std::vector<std::array<double, 3>> places(positions().begin(), positions().end());
   const MeasuredLengths* const own = lengths();
   const auto rows = [&](const auto& corners_of, const auto& all) {

@@ -43,6 +43,7 @@ class PathsOf final : public AnyPathField::State {
     with_executor<Complex>(executor,
                            [&](const auto& chosen) { paths_.solve(chosen, sources, options); });
     field.data = paths_.distances();
+    if (const OpenSimplices* const open = keep_->open()) open->spread(field);
   }
 
   Path trace(const PointSource& outside, const TraceOptions& options) const override {

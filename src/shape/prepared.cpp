@@ -464,14 +464,17 @@ std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOption
     support(Purpose::triangulations, shape.kind()).require();
   if (options.lengths) support(Purpose::metrics, shape.kind()).require();
   if (options.threads < 0) throw UsageError("the number of threads must be 0 (all) or more");
-  if (const KeptBuild* const kept = shape.state().kept.get(); kept && kept->answers(options))
-    return options.precision == Precision::single ? open_as<float>(shape, *kept)
-                                                  : open_as<double>(shape, *kept);
   std::unique_ptr<const OpenSimplices> open;
-  if (options.mask) open = std::make_unique<const OpenSimplices>(*options.mask, shape);
-  std::shared_ptr<Prepared> made = options.precision == Precision::single
-                                       ? prepare_as<float>(shape, options)
-                                       : prepare_as<double>(shape, options);
+  if (options.mask)
+    open = std::make_unique<const OpenSimplices>(*options.mask, shape);
+  else if (!shape.merged_vertices().empty())
+    open = std::make_unique<const OpenSimplices>(Mask(shape.vertices(), shape.simplices()), shape);
+  const bool single = options.precision == Precision::single;
+  std::shared_ptr<Prepared> made;
+  if (const KeptBuild* const kept = shape.state().kept.get(); kept && kept->answers(options))
+    made = single ? open_as<float>(shape, *kept) : open_as<double>(shape, *kept);
+  else
+    made = single ? prepare_as<float>(shape, options) : prepare_as<double>(shape, options);
   made->open_ = std::move(open);
   return made;
 }

@@ -37,6 +37,8 @@ void check(const ReadOptions& options) {
     if (value && (!(*value > 0) || std::isinf(*value)))
       throw UsageError(name(field) + " must be a number greater than 0");
   };
+  if (options.merge && (!(*options.merge >= 0) || std::isinf(*options.merge)))
+    throw UsageError(name("merge") + " must be a number >= 0");
   const FillOptions& fill = options.fill;
   if (!(fill.max_volume >= 0) || std::isinf(fill.max_volume))
     throw UsageError(name("max_volume") + " must be a number greater than 0");

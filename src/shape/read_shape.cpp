@@ -13,6 +13,7 @@
 #include "shape/collapsed.hpp"
 #include "shape/fill.hpp"
 #include "shape/kept_build.hpp"
+#include "shape/merge.hpp"
 #include "shape/modules/openvdb_functions.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/simplex_edges.hpp"
@@ -124,6 +125,7 @@ class Asked {
             as(DomainKind::solid),
         use);
     ask(options_.volume.voxel.has_value(), Reading::voxel, name("voxel"), use);
+    ask(options_.merge.has_value(), Reading::merging, name("merge"), use);
   }
 
  private:
@@ -283,6 +285,7 @@ AnyShape::State ShapeFile::read() {
           return data.positions.size();
       },
       state_.data);
+  if (options_.merge) merge_vertices(state_, *options_.merge);
   find_collapsed(state_);
   if (options_.strict) require_strict();
   return std::move(state_);

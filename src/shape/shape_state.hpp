@@ -26,6 +26,8 @@ struct AnyShape::State {
   std::shared_ptr<const KeptBuild> kept;  ///< of a prepared file
   io::FileReport report;                  ///< of what the file has
   std::vector<Index> collapsed;           ///< simplices with a corner twice, which are left out
+  std::vector<Index> merged;              ///< AnyShape::merged_vertices
+  double merge_tolerance = 0;
 };
 
 /// Where the vertices of simplices are: AnyShape::State::places.

@@ -53,6 +53,7 @@ void Prepared::solve(const AnyExecutor& executor, const SourceList& sources,
       },
       at.complex);
   take_back(room, field);
+  if (open_) open_->spread(field);
 }
 
 std::size_t SolveRoom::bytes() const {

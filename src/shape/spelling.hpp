@@ -12,6 +12,7 @@ namespace plexway {
   X(twice, "double precision", "--precision double", "precision='double'")                       \
   X(triangulation, "triangulation", "--triangulation", "triangulation=")                         \
   X(bounds, "the radius or the number of expansions", "--radius or --max-expansions", "radius=") \
+  X(merge, "merging them", "--merge 0", "merge=0")                                               \
   X(k, "k = ", "--k ", "k=")                                                                     \
   X(neighbour_radius, "their radius", "--neighbour-radius", "neighbour_radius=")                 \
   X(normal_angle, "the largest angle of normals", "--max-normal-angle", "max_normal_angle=")     \

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -50,23 +51,31 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
   const auto inside = mesh_.vertices_inside();
   if constexpr (!works_in_place<Windows>) workspace.vertex.resize(inside.size());
   if constexpr (kLabels) workspace.vertex_source.resize(inside.size());
-  std::atomic<bool> everywhere{true};
+  std::atomic<std::size_t> reached_vertices{0};
   crew.over(inside.size(), [&](std::size_t begin, std::size_t end) {
-    bool all = true;
+    std::size_t some = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const Index v = static_cast<Index>(i);
       const auto d = windows.distance(v);
-      all &= d < infinity;
+      some += d < infinity;
       if constexpr (!works_in_place<Windows>) workspace.vertex[v] = static_cast<Real>(d);
       if constexpr (kLabels) workspace.vertex_source[v] = windows.source(v);
     }
-    if (!all) everywhere.store(false, std::memory_order_relaxed);
+    reached_vertices += some;
   });
+  // Of a small part of the mesh all is known, and the rest is not looked at.
+  std::optional<surface::Reached> part;
+  if (reached_vertices < inside.size() / 16) {
+    part.emplace();
+    for (Index v = 0; v < inside.size(); ++v)
+      if (windows.distance(v) < infinity) part->vertices.push_back(v);
+    part->find_triangles(mesh_);
+  }
   field.statistics = windows.statistics();
   if (mends) {
     const auto mended = surface::mend<Real, kLabels>(
         mesh_, sources.only_points() ? sources.points : std::span<const PointSource>(), workspace,
-        crew);
+        crew, part ? &*part : nullptr);
     field.statistics.lowered_vertices = mended.lowered;
     field.statistics.raised_vertices = mended.raised;
   }
@@ -90,15 +99,16 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
   }
   field.complete = windows.complete();
   field.statistics.reached_simplices = mesh_.face_count();
-  if (everywhere.load(std::memory_order_relaxed)) return;
+  if (reached_vertices == inside.size()) return;
   const auto triangles = mesh_.triangles();
   std::atomic<std::size_t> reached{0};
-  crew.over(mesh_.face_count(), [&](std::size_t begin, std::size_t end) {
-    std::size_t some = 0;
-    for (std::size_t f = begin; f < end; ++f)
-      some += windows.distance(triangles[f].corner[0]) < infinity;
-    reached.fetch_add(some, std::memory_order_relaxed);
-  });
+  crew.over(
+      part ? part->triangles.size() : mesh_.face_count(), [&](std::size_t begin, std::size_t end) {
+        std::size_t some = 0;
+        for (std::size_t n = begin; n < end; ++n)
+          some += windows.distance(triangles[part ? part->triangles[n] : n].corner[0]) < infinity;
+        reached.fetch_add(some, std::memory_order_relaxed);
+      });
   field.statistics.reached_simplices = reached.load(std::memory_order_relaxed);
 }
 

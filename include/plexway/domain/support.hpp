@@ -202,6 +202,9 @@ namespace plexway {
     "a repair needs a surface, and gives a surface, a solid or a wireframe: leave it out")         \
   X(voxel_domain,                                                                                  \
     "voxels are those of clouds, of repairs, and of a .vdb to read or to write: leave them out")   \
+  X(merging_domain,                                                                                \
+    "vertices are merged of surfaces, solids and wireframes with positions, as a file has them: "  \
+    "leave it out for points and lengths, and where a surface is filled or repaired")              \
   X(grid_domain, "only a .vdb has grids: leave the grid out")                                      \
   X(copied_points,                                                                                 \
     "points are copied as they are: leave out what fills, repairs, cuts and connects")

@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <plexway/common/ids.hpp>
 #include <plexway/common/mask.hpp>
 #include <plexway/paths/path.hpp>
+#include <plexway/shape/field.hpp>
 #include <plexway/shape/shape.hpp>
 #include <plexway/source/point_source.hpp>
 #include <plexway/source/source.hpp>
@@ -20,7 +22,8 @@ namespace plexway {
                                                             std::shared_ptr<const Mask> mask);
 
 /// What a mask leaves of a shape: simplices by their numbers in the shape (outside) and among those
-/// that are open (inside), which are all that a complex is built of. 9 bytes a simplex or vertex.
+/// that are open (inside), which are all that a complex is built of. Of merged vertices
+/// (AnyShape::merged) the first alone is inside. 9 bytes a simplex or vertex.
 class OpenSimplices {
  public:
   /// Throws UsageError for a mask of another size, InputError where
@@ -36,21 +39,34 @@ class OpenSimplices {
   [[nodiscard]] Index outside(Index simplex) const { return outside_[simplex]; }
   /// The same of every point of a path inside; a vertex without a simplex stays as it is.
   void outside(Path& path) const;
+  /// Likewise.
+  [[nodiscard]] PointSource outside(const PointSource& point) const;
   /// Is a vertex in an open simplex? If not it reaches nothing but itself. It must be one (not
   /// checked).
   [[nodiscard]] bool reach(Index vertex) const { return reached_[vertex] != 0; }
 
   ///@{
-  /// The same place inside. What names a vertex, or nothing, stays as it is. Throws UsageError for
-  /// a simplex that is closed or is not there.
+  /// The same place inside. A vertex, or nothing, stays as it is, but a merged one is the first at
+  /// its place. Throws UsageError for a simplex that is closed or is not there.
   [[nodiscard]] PointSource inside(const PointSource& point) const;
   [[nodiscard]] Source inside(const Source& source) const;
   ///@}
+  /// Vertices inside of these columns, or of all where there are none; those given if none are
+  /// merged.
+  [[nodiscard]] std::vector<Index> columns(std::span<const Index> columns) const;
+  /// Gives merged vertices what the first at their place has. Empty rows stay so.
+  template <class Value>
+  void spread(std::vector<Value>& of_vertices) const {
+    if (of_vertices.empty()) return;
+    for (std::size_t v = 0; v < first_.size(); ++v) of_vertices[v] = of_vertices[first_[v]];
+  }
+  /// Of a field likewise.
+  void spread(AnyField& field) const;
 
  private:
   [[nodiscard]] Index numbered(Index simplex) const;
 
-  std::vector<Index> inside_, outside_;
+  std::vector<Index> inside_, outside_, first_;
   std::vector<char> reached_;
 };
 

@@ -80,6 +80,9 @@ struct ReadOptions {
   /// Refuse a file of which something would be left out, guessed or mended, such as a face with a
   /// corner twice.
   bool strict = false;
+  /// Vertices of a surface, a solid or a wireframe that are no farther apart than this, in file
+  /// units, are one: see AnyShape::merged. Nothing: those alone that a file names as one.
+  std::optional<double> merge = {};
   /// How messages name these options.
   Spelling spelling = Spelling::fields;
   /// What is told meanwhile.

@@ -161,6 +161,21 @@ class AnyShape {
   /// Simplices with a vertex twice, by their numbers: no domain is built of them.
   [[nodiscard]] std::span<const Index> collapsed() const;
 
+  /// The same shape, but vertices no farther apart than `tolerance`, >= 0, are one: the sides of a
+  /// seam, or the corners of triangles that each have their own (STL, CAD, games). All keep their
+  /// numbers and positions; simplices are of the first of those that are one, fields give each its
+  /// value, and sources at any of them are the same. 0 joins what lies at one place. Throws
+  /// UsageError for other kinds than surfaces, solids and wireframes with positions. Cost: linear
+  /// in the mean.
+  [[nodiscard]] AnyShape merged(double tolerance) const;
+  /// For each vertex the first of those that it is one with, which is itself where it is alone;
+  /// empty where none were merged.
+  [[nodiscard]] std::span<const Index> merged_vertices() const;
+  /// How many vertices are one with a vertex before them.
+  [[nodiscard]] std::size_t merged_count() const;
+  /// By which they were; 0 where none were.
+  [[nodiscard]] double merge_tolerance() const;
+
   /// How a level set came in: the grid and its voxels, or what was repaired; else empty.
   [[nodiscard]] const std::string& level_set_note() const;
   /// Seconds that reading took, and those that filling a surface and finding the neighbours of a

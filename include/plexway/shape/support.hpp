@@ -17,6 +17,7 @@ namespace plexway {
   X(repair, "VolumeOptions::repair")       \
   X(voxel, "VolumeOptions::voxel")         \
   X(grid, "VolumeOptions::grid")           \
+  X(merging, "ReadOptions::merge")         \
   X(joining, "parts of a mixed domain, AnyShape::read of several files")
 
 #define PLEXWAY_NAME(name, what) name,
@@ -83,6 +84,12 @@ constexpr Support support(Reading reading, const FileUse& f) {
       if (f.held == cloud || f.held == simplices || boundary || level_set)
         return Refusal::pieces_domain;
       return f.positions ? Refusal::nothing : Refusal::pieces_positions;
+    case Reading::merging: {
+      const bool made =
+          boundary || level_set || f.repaired || (f.held == surface && f.wanted == solid);
+      const bool kind = f.wanted == surface || f.wanted == solid || f.wanted == wireframe;
+      return kind && !made && f.positions ? Refusal::nothing : Refusal::merging_domain;
+    }
     case Reading::grid:
       return level_set ? Refusal::nothing : Refusal::grid_domain;
   }

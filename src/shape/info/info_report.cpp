@@ -20,6 +20,7 @@ void add_file_report(const AnyShape& domain, Json& json) {
   json["split_polygons"] = report.split_polygons;
   json["split_cells"] = report.split_cells;
   json["dropped_simplices"] = domain.collapsed().size();
+  json["merged_vertices"] = domain.merged_count();
   json["passed_over"] = Json::object();
   for (const auto& [what, count] : report.passed_over) json["passed_over"][what] = count;
 }
@@ -34,6 +35,10 @@ void add_file_report(const AnyShape& domain, Table& table) {
         (split.empty() ? "" : ", ") + counted(report.split_cells, "cells") + " into tetrahedra";
   if (!split.empty()) table.add("split", split);
   if (!report.passed_over.empty()) table.add("passed over", report.passed_over_text());
+  if (const std::size_t merged = domain.merged_count(); merged > 0)
+    table.add("merged", counted(merged, "vertices") + (merged == 1 ? " is" : " are") +
+                            " one with an earlier one within " +
+                            short_number(domain.merge_tolerance()));
   if (!domain.collapsed().empty()) table.add("dropped", collapsed_sentence(domain));
 }
 

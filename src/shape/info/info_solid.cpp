@@ -8,7 +8,8 @@ namespace plexway {
 
 InfoReport info_of(const AnyShape& domain, const io::Tets& solid) {
   const AnyDomain built = measured_domain(domain);
-  const SolidSummary& summary = complex_as<TetMesh<double>>(built).summary();
+  SolidSummary summary = complex_as<TetMesh<double>>(built).summary();
+  summary.unreferenced_vertices -= domain.merged_count();
   const SolidSurvey survey = survey_solid(solid);
   const auto sizes = component_sizes(domain);
   const auto warnings = solid_warnings(summary, survey);

@@ -92,7 +92,7 @@ std::vector<std::string> surface_warnings(const SurfaceSummary& summary,
   warn(summary.unreferenced_vertices, "unreferenced vertices", " in no triangle, so they get inf");
   warn(survey.coincident_vertices, "vertices",
        " exactly where another one lies: if the two sides of a seam have their own vertices, the "
-       "surface is cut along it and paths go round");
+       "surface is cut along it and paths go round; --merge 0 joins them");
   warn(summary.degenerate_faces, "degenerate triangles", " without area");
   if (!summary.orientable) warnings.emplace_back("not orientable: no harm to distances");
   if (survey.slender_share > 0.01) {
@@ -107,7 +107,8 @@ std::vector<std::string> surface_warnings(const SurfaceSummary& summary,
 InfoReport info_of(const AnyShape& domain, const io::Triangles& surface) {
   const AnyDomain built = measured_domain(domain);
   const auto& mesh = complex_as<TriangleMesh<double>>(built);
-  const SurfaceSummary& summary = mesh.summary();
+  SurfaceSummary summary = mesh.summary();
+  summary.unreferenced_vertices -= domain.merged_count();
   const TriangulationShape shape = measure_triangulation(mesh);
   const SurfaceSurvey survey = survey_surface(surface);
   const Bounds box{survey.low, survey.high};

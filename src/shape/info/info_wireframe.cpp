@@ -17,7 +17,7 @@ std::vector<std::string> wireframe_warnings(const WireframeSummary& summary,
   warn(summary.unreferenced_vertices, "unreferenced vertices", " in no edge, so they get inf");
   warn(coincident, "vertices",
        " exactly where another one lies: edges that meet there are joined only if they name the "
-       "same vertex");
+       "same vertex; --merge 0 joins them");
   warn(summary.zero_length_edges, "edges", " without length");
   warn(summary.loops, "loops", " from a vertex to itself: no path gains by one");
   return warnings;
@@ -46,7 +46,8 @@ Degrees degrees_of(const io::Edges& wireframe) {
 
 InfoReport info_of(const AnyShape& domain, const io::Edges& wireframe) {
   const AnyDomain built = measured_domain(domain);
-  const WireframeSummary& summary = complex_as<Wireframe<double>>(built).summary();
+  WireframeSummary summary = complex_as<Wireframe<double>>(built).summary();
+  summary.unreferenced_vertices -= domain.merged_count();
   const std::vector<double> lengths = lengths_of(wireframe);
   const Spread spread = spread_of(lengths);
   const double total = std::accumulate(lengths.begin(), lengths.end(), 0.0);

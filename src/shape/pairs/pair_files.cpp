@@ -162,10 +162,10 @@ template <class Real>
 class PairRun {
  public:
   PairRun(const PairWork& work, const AnyExecutor& executor, const RowSolver<Real>& solver,
-          const std::vector<PointSource>& rows)
+          const std::vector<PointSource>& rows, std::span<const Index> columns)
       : work_(work), files_(work.files), executor_(executor), solver_(solver) {
     request_.rows = SourceList(rows);
-    request_.columns = files_.columns;
+    request_.columns = columns;
     request_.solve = files_.solve;
     request_.block = files_.block;
   }
@@ -369,10 +369,13 @@ PairFilesReport run_on(const PairWork& work, const AnyExecutor& executor) {
   if (work.domain.kind() != DomainKind::surface) building.triangulation = Triangulation::input;
   const AnyDomain built(work.domain, building);
   const RowComplex of_rows = row_complex(built, work.files.rows);
+  const std::vector<Index> columns = built.open_simplices() == nullptr
+                                         ? work.files.columns
+                                         : built.open_simplices()->columns(work.files.columns);
   PairFilesReport report;
   const auto run = [&](const auto& chosen, const auto& complex) {
     const auto solver = row_solver(chosen, complex);
-    report = PairRun(work, executor, solver, of_rows.rows).run();
+    report = PairRun(work, executor, solver, of_rows.rows, columns).run();
   };
   std::visit(
       [&](const auto& complex) {

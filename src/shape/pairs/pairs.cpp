@@ -93,10 +93,15 @@ PairsReport near_pairs(const AnyExecutor& executor, const AnyDomain& domain,
                      });
   }
   // Rows are found in the complex itself.
-  const Inside inside(domain.open_simplices(),
-                      request.rows.value_or(std::span<const PointSource>()));
+  const OpenSimplices* const open = domain.open_simplices();
+  std::vector<PointSource> rows;
+  if (open != nullptr && !request.rows)
+    for (const Index v : open->columns({})) rows.push_back(PointSource::at(v));
+  const Inside inside(open, request.rows.value_or(SourceList(rows)));
   PairsRequest within = request;
-  if (request.rows) within.rows = inside.list();
+  if (request.rows || !rows.empty()) within.rows = inside.list();
+  std::vector<Index> columns;
+  if (open != nullptr) within.columns = columns = open->columns(request.columns);
   return by(executor, domain, [&](const auto& with) {
     return with_complex(domain, [&](const auto& complex) {
       using Real = RealOf<std::decay_t<decltype(complex)>>;

@@ -80,14 +80,25 @@ std::vector<bool> used_in(const AnyShape& domain) {
   std::vector<bool> used(domain.vertices(), false);
   for (std::size_t s = 0; s < domain.simplices(); ++s)
     for (const auto v : domain.corners(s)) used[v] = true;
+  const std::span<const Index> first = domain.merged_vertices();
+  for (std::size_t v = 0; v < first.size(); ++v) used[v] = used[first[v]];
   return used;
 }
 
-// What is known of a solid by its edges: that paths bend at notches, and that tetrahedra which
-// share edges alone look like quads of a curved surface.
+// What is known of a solid, or of simplices that do not lie flat, by its edges: that paths bend at
+// notches, and that tetrahedra which share edges alone look like quads of a curved surface.
 std::string solid_sentence(const AnyDomain& solver) {
-  if (solver.kind() != DomainKind::solid) return "";
+  if (solver.kind() != DomainKind::solid && solver.kind() != DomainKind::simplices) return "";
   return with_complex(solver, []<class C>(const C& complex) -> std::string {
+    if constexpr (C::kind == DomainKind::simplices) {
+      if (const std::size_t notches = complex.summary().notches; notches > 0)
+        return "paths bend around " +
+               counted(notches, C::dimension == 2   ? "corners"
+                                : C::dimension == 3 ? "edges"
+                                                    : "triangles") +
+               " of the boundary, which no rule sees in simplices by lengths, or of more "
+               "coordinates than dimensions: distances behind them may be up to a sixth too short";
+    }
     if constexpr (C::kind == DomainKind::solid) {
       const SolidSummary& solid = complex.summary();
       if (solid.notch_edges > 0)
@@ -119,14 +130,13 @@ std::string why_unreached(const AnyDomain& solver, Reader reader) {
       why.append(", ").append(counted(apart, "vertices")).append(apart == 1 ? " is" : " are");
       why.append(" in none of its ").append(domain.simplex_name());
     }
-    const auto* const surface = std::get_if<io::Triangles>(&domain.data());
-    if (surface != nullptr && solver.components() > 1 && !surface->positions.empty())
-      if (const std::size_t twins = count_coincident(surface->positions, surface->triangles);
-          twins > 0)
+    if (solver.components() > 1)
+      if (const std::size_t twins = count_coincident(domain); twins > 0)
         why.append(", and ")
             .append(counted(twins, "vertices"))
-            .append(twins == 1 ? " lies exactly where another one does"
-                               : " lie exactly where another does");
+            .append(" lie exactly where another does; ")
+            .append(spelled(Advice::merge, reader))
+            .append(" joins them");
   }
   return why;
 }

@@ -79,7 +79,7 @@ std::vector<std::string> solid_warnings(const SolidSummary& summary, const Solid
        " in no tetrahedron, so they get inf");
   warn(survey.coincident_vertices, "vertices",
        " exactly where another one lies: if the two sides of a cut have their own vertices, paths "
-       "go round it");
+       "go round it; --merge 0 joins them");
   const auto first = [](Index tet) { return ", tetrahedron " + std::to_string(tet) + " first"; };
   warn(summary.degenerate_tets, "degenerate tetrahedra",
        " without volume" + first(summary.first_degenerate));

@@ -53,6 +53,24 @@ Spread spread_of(std::span<const double> lengths) {
   return spread;
 }
 
+std::size_t count_coincident(const AnyShape& shape) {
+  return std::visit(
+      [](const auto& data) -> std::size_t {
+        if constexpr (
+            requires { data.edges; } || requires { data.tets; } || requires { data.triangles; })
+          if (data.positions.empty()) return 0;
+        if constexpr (requires { data.triangles; })
+          return count_coincident(data.positions, data.triangles);
+        else if constexpr (requires { data.tets; })
+          return count_coincident(data.positions, data.tets);
+        else if constexpr (requires { data.edges; })
+          return count_coincident(data.positions, data.edges);
+        else
+          return 0;
+      },
+      shape.data());
+}
+
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
 std::optional<std::vector<std::size_t>> component_sizes(const AnyShape& domain) {
   const auto of = [&](const auto& simplices) {

@@ -51,6 +51,9 @@ std::size_t count_coincident(const std::vector<std::array<double, 3>>& at,
   return coincident;
 }
 
+/// The same of a surface, a solid or a wireframe with positions; else 0.
+std::size_t count_coincident(const AnyShape& shape);
+
 /// Vertices in each component that has simplices, most first, as Boost.Graph counts them; nothing
 /// where this build has no Boost.Graph.
 std::optional<std::vector<std::size_t>> component_sizes(const AnyShape& domain);

@@ -59,6 +59,7 @@ void add_convert_command(CLI::App& tool, Action& action) {
       ->type_name("OUT")
       ->required();
   app.add_option("--as", command->as, as_help)->type_name("KIND");
+  add_merge_option(app, *command);
   add_report_options(app, *command);
   add_fill_options(app, command->fill);
   app.footer(

@@ -35,8 +35,8 @@ struct CvtResult {
 };
 
 template <class Complex>
-CvtResult compute(const Complex& complex, const CvtCommand& command, ProgressLine& progress,
-                  Phases& phases) {
+CvtResult compute(const Complex& complex, const SampledNumbers& numbers, const CvtCommand& command,
+                  ProgressLine& progress, Phases& phases) {
   CvtResult result;
   phases.end("build");
   PoissonOptions throwing;
@@ -61,13 +61,17 @@ CvtResult compute(const Complex& complex, const CvtCommand& command, ProgressLin
   };
   result.voronoi = centroidal_voronoi(Serial{}, complex, start.darts, options);
   phases.end("move");
+  const std::vector<PointSource> seeds = result.voronoi.seeds;
+  numbers.outside(result.voronoi.seeds);
   if (command.cells.empty() && command.dual.empty() && !command.picture.wanted()) return result;
-  const auto field = solve(Serial{}, complex, std::span<const PointSource>(result.voronoi.seeds));
+  const auto field = solve(Serial{}, complex, std::span<const PointSource>(seeds));
   result.distance.assign(field.distance.begin(), field.distance.end());
   result.label = field.label;
   if (result.label.empty()) {
     for (const double d : result.distance) result.label.push_back(std::isfinite(d) ? 0 : none);
   }
+  numbers.spread(result.distance);
+  numbers.spread(result.label);
   phases.end("cells");
   return result;
 }
@@ -91,8 +95,8 @@ void run_cvt(const CvtCommand& command) {
   phases.end("load");
   if (!command.dual.empty()) require("--dual", support(Purpose::duals, domain.kind()));
   CvtResult result;
-  Notes notes = with_sampled(domain, precision, [&](const auto& complex) {
-    result = compute(complex, command, progress, phases);
+  Notes notes = with_sampled(domain, precision, [&](const auto& complex, const auto& numbers) {
+    result = compute(complex, numbers, command, progress, phases);
   });
   const CentroidalVoronoi& voronoi = result.voronoi;
   if (!command.out.empty())

@@ -63,6 +63,7 @@ void check_support(const DistanceCommand& command, std::span<const SetArgument> 
   reading("the further file " + (command.more.empty() ? "" : command.more.front()),
           !command.more.empty(), Reading::joining);
   reading("--weld", command.weld.has_value(), Reading::joining);
+  reading("--merge", command.merge.has_value(), Reading::merging);
   reading("--repair", command.fill.volume.repair, Reading::repair);
   reading("--voxel", command.fill.volume.voxel.has_value(), Reading::voxel);
   reading("--grid", !command.fill.volume.grid.empty(), Reading::grid);

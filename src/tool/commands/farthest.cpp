@@ -49,13 +49,16 @@ void run_farthest(const FarthestCommand& command) {
   progress.phase("looking for the farthest points");
   FarthestPoints found;
   std::vector<double> nearest;  // to the points found, where a picture shows it
-  Notes notes = with_sampled(domain, precision, [&](const auto& complex) {
+  Notes notes = with_sampled(domain, precision, [&](const auto& complex, const auto& numbers) {
     phases.end("build");
-    found = farthest_points(Serial{}, complex, start, options);
+    found = farthest_points(Serial{}, complex, numbers.inside(start), options);
     phases.end("search");
-    if (!command.picture.wanted()) return;
-    const auto field = solve(Serial{}, complex, std::span<const PointSource>(found.points));
-    nearest.assign(field.distance.begin(), field.distance.end());
+    if (command.picture.wanted()) {
+      const auto field = solve(Serial{}, complex, std::span<const PointSource>(found.points));
+      nearest.assign(field.distance.begin(), field.distance.end());
+      numbers.spread(nearest);
+    }
+    numbers.outside(found.points);
   });
   if (!command.out.empty())
     write_points(command.out, domain, found.points, "distance", found.distance);

@@ -57,13 +57,13 @@ void run_pairs(const PairsCommand& pairs) {
   const auto points = locate_sources(domain, arguments);
   progress.phase("solving");
   DistanceMatrix matrix;
-  Notes notes = with_sampled(domain, precision, [&](const auto& complex) {
+  Notes notes = with_sampled(domain, precision, [&](const auto& complex, const auto& numbers) {
     phases.end("build");
     const auto tell = [&](double share) {
       progress.done(share);
       return true;
     };
-    matrix = distance_matrix(Serial{}, complex, points, tell, accuracy);
+    matrix = distance_matrix(Serial{}, complex, numbers.inside(points), tell, accuracy);
     phases.end("solve");
   });
   if (!command.out.empty()) write_matrix(command.out, matrix.size, matrix.distance);

@@ -76,9 +76,10 @@ void run_poisson(const PoissonCommand& command) {
   };
   progress.phase("throwing darts");
   PoissonDisks disks;
-  Notes notes = with_sampled(domain, precision, [&](const auto& complex) {
+  Notes notes = with_sampled(domain, precision, [&](const auto& complex, const auto& numbers) {
     phases.end("build");
     disks = poisson_disks(Serial{}, complex, options);
+    numbers.outside(disks.darts);
     phases.end("throw");
   });
   if (!command.out.empty()) write_points(command.out, domain, disks.darts);

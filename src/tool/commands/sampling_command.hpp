@@ -39,13 +39,38 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
 /// Throws UsageError where the precision does not exist.
 Precision precision_of(const SamplingCommand& command);
 
-/// Calls `use(complex)` on the domain's own triangles, as plexway::with_sampled. Returns what is to
-/// be told of it.
+/// Points of a shape as its complex has them, where simplices have a corner twice or vertices are
+/// merged, and back.
+class SampledNumbers {
+ public:
+  explicit SampledNumbers(const OpenSimplices* open) : open_(open) {}
+
+  [[nodiscard]] std::vector<PointSource> inside(std::vector<PointSource> points) const {
+    if (open_ != nullptr)
+      for (PointSource& point : points) point = open_->inside(point);
+    return points;
+  }
+  void outside(std::vector<PointSource>& points) const {
+    if (open_ != nullptr)
+      for (PointSource& point : points) point = open_->outside(point);
+  }
+  template <class Value>
+  void spread(std::vector<Value>& of_vertices) const {
+    if (open_ != nullptr) open_->spread(of_vertices);
+  }
+
+ private:
+  const OpenSimplices* open_;
+};
+
+/// Calls `use(complex, numbers)` on the domain's own triangles, as plexway::with_sampled. Returns
+/// what is to be told of it.
 template <class Use>
 Notes with_sampled(const Domain& domain, Precision precision, const Use& use) {
   support(Purpose::samples, domain.kind()).require();
   const AnyDomain built(domain, {.precision = precision, .triangulation = Triangulation::input});
-  plexway::with_sampled(built, use);
+  const SampledNumbers numbers(built.open_simplices());
+  plexway::with_sampled(built, [&](const auto& complex) { use(complex, numbers); });
   Notes notes;
   notes.add(domain_remarks(built, Reader::tool));
   return notes;

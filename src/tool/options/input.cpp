@@ -47,6 +47,14 @@ void add_inputs(CLI::App& app, InputCommand& command) {
       ->type_name("TOLERANCE");
 }
 
+void add_merge_option(CLI::App& app, InputCommand& command) {
+  app.add_option(
+         "--merge", command.merge,
+         "vertices of a surface, solid or wireframe that are this close are one: the sides\n"
+         "of a seam, triangles with corners of their own (0: at one place)")
+      ->type_name("TOLERANCE");
+}
+
 void add_report_options(CLI::App& app, InputCommand& command, const char* quiet) {
   app.add_flag("--json", command.json, "print the summary as one JSON object");
   app.add_flag("--quiet,-q", command.quiet, quiet);
@@ -61,6 +69,7 @@ void add_input_options(CLI::App& app, InputCommand& command, const char* quiet) 
   app.add_flag("--strict", command.strict,
                "refuse a file of which something is left out, guessed or repaired, such as a face\n"
                "with a corner twice");
+  add_merge_option(app, command);
   add_report_options(app, command, quiet);
   add_fill_options(app, command.fill);
   add_cloud_options(app, command.cloud);
@@ -88,6 +97,7 @@ ReadOptions read_options(const InputCommand& command, ProgressLine& progress) {
                        "mixed");
   }
   options.strict = command.strict;
+  options.merge = command.merge;
   options.fill = filling(command.fill);
   options.volume = command.fill.volume;
   options.cloud = command.cloud;

@@ -23,7 +23,7 @@ using Domain = AnyShape;
 struct InputCommand {
   std::string input, as;
   std::vector<std::string> more;  ///< further files than INPUT, where the command takes them
-  std::optional<double> weld;
+  std::optional<double> weld, merge;
   FillArguments fill;
   CloudPreparation cloud;
   bool json = false, quiet = false, strict = false, verbose = false;
@@ -39,12 +39,14 @@ inline constexpr const char* usual_quiet = "no summary, notes or progress; error
 
 ///@{
 /// Adds INPUT; INPUT, MORE and --weld; --json and --quiet; or these and all that says how to read a
-/// domain: --as, and groups about filling and clouds; --verbose, of commands that solve.
+/// domain: --as, and groups about filling and clouds; --verbose, of commands that solve; --merge
+/// alone.
 void add_input(CLI::App& app, InputCommand& command, const std::string& help = input_help());
 void add_inputs(CLI::App& app, InputCommand& command);
 void add_report_options(CLI::App& app, InputCommand& command, const char* quiet = usual_quiet);
 void add_input_options(CLI::App& app, InputCommand& command, const char* quiet = usual_quiet);
 void add_verbose_option(CLI::App& app, InputCommand& command);
+void add_merge_option(CLI::App& app, InputCommand& command);
 ///@}
 
 /// What the library tells while it works, on the line; `progress` must stay.

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <plexway/common/distinct_points.hpp>
+#include <plexway/error.hpp>
+#include <plexway/shape/shape.hpp>
+#include <plexway/shape/support.hpp>
+
+#include "shape/collapsed.hpp"
+#include "shape/merge.hpp"
+#include "shape/shape_state.hpp"
+
+namespace plexway {
+namespace {
+
+using Place = std::array<double, 3>;
+
+struct CellHash {
+  std::size_t operator()(const Place& cell) const {
+    std::size_t sum = 0;
+    for (const double x : cell) sum = (sum ^ std::hash<double>{}(x)) * 0x9e3779b97f4a7c15U;
+    return sum ^ (sum >> 32U);
+  }
+};
+
+// Points that are kept lie more than `tolerance` apart, so few share a cube of that side.
+std::vector<Index> first_within(std::span<const Place> points, double tolerance) {
+  std::unordered_map<Place, std::vector<Index>, CellHash> cells;
+  std::vector<Index> first(points.size());
+  const auto cell_of = [&](const Place& p, int i, int j, int k) -> Place {
+    return {std::floor(p[0] / tolerance) + i, std::floor(p[1] / tolerance) + j,
+            std::floor(p[2] / tolerance) + k};
+  };
+  for (Index v = 0; v < points.size(); ++v) {
+    const Place& p = points[v];
+    first[v] = v;
+    for (int n = 0; n < 27; ++n) {
+      const auto found = cells.find(cell_of(p, n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1));
+      if (found == cells.end()) continue;
+      for (const Index w : found->second) {
+        const Place& q = points[w];
+        if (w < first[v] && std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) <= tolerance)
+          first[v] = w;
+      }
+    }
+    if (first[v] == v) cells[cell_of(p, 0, 0, 0)].push_back(v);
+  }
+  return first;
+}
+
+}  // namespace
+
+void merge_vertices(AnyShape::State& state, double tolerance) {
+  if (!(tolerance >= 0) || std::isinf(tolerance)) throw UsageError("merge must be a number >= 0");
+  const auto merge = [&](auto& simplices, const std::vector<Place>& positions) {
+    if (positions.empty())
+      support(Reading::merging,
+              {.held = DomainKind::wireframe, .wanted = DomainKind::wireframe, .positions = false})
+          .require();
+    std::vector<Index> first =
+        tolerance > 0 ? first_within(positions, tolerance) : distinct_points(positions).first;
+    bool any = false;
+    for (Index v = 0; v < first.size() && !any; ++v) any = first[v] != v;
+    if (!any) return;
+    for (auto& corners : simplices)
+      for (auto& v : corners) v = first[v];
+    state.merged = std::move(first);
+    state.merge_tolerance = tolerance;
+  };
+  std::visit(
+      [&](auto& data) {
+        if constexpr (requires { data.triangles; }) {
+          merge(data.triangles, data.positions);
+        } else if constexpr (requires { data.tets; }) {
+          merge(data.tets, data.positions);
+        } else if constexpr (requires { data.edges; }) {
+          merge(data.edges, data.positions);
+        }
+      },
+      state.data);
+}
+
+AnyShape AnyShape::merged(double tolerance) const {
+  support(Reading::merging, {.held = kind(), .wanted = kind(), .positions = !positions().empty()})
+      .require();
+  State state = *state_;
+  state.data = data();
+  state.kept = nullptr;
+  merge_vertices(state, tolerance);
+  state.collapsed.clear();
+  find_collapsed(state);
+  return of(std::move(state));
+}
+
+std::span<const Index> AnyShape::merged_vertices() const { return state_->merged; }
+double AnyShape::merge_tolerance() const { return state_->merge_tolerance; }
+std::size_t AnyShape::merged_count() const {
+  std::size_t count = 0;
+  for (Index v = 0; v < state_->merged.size(); ++v) count += state_->merged[v] != v;
+  return count;
+}
+
+}  // namespace plexway
