@@ -89,12 +89,12 @@ def exit_codes(sections):
 
 def first_sentence(doc):
     text = " ".join(doc.split("\n\n")[0].split())
-    return re.split(r"(?<=[.:])\s", text.replace("``", "`"))[0].rstrip(":.") + "."
+    return re.split(r"(?<=\.)\s", text.replace("``", "`"))[0].rstrip(".") + "."
 
 
 def signature(function):
     a = function.args
-    names = [arg.arg for arg in a.args if arg.arg != "self"]
+    names = [arg.arg for arg in a.args if arg.arg != "self"] + (["*" + a.vararg.arg] if a.vararg else [])
     keywords = [arg.arg + "=" for arg in a.kwonlyargs]
     return ", ".join(names + keywords)
 
@@ -120,7 +120,7 @@ def python_table():
         fields = [m.target.id for m in node.body
                   if isinstance(m, ast.AnnAssign) and isinstance(m.target, ast.Name) and not m.target.id.startswith("_")]
         # Of a data class the fields are the arguments, where users make one.
-        takes = signature(start) if start and name not in ("Domain", "Field") else ", ".join(fields)
+        takes = signature(start) if start and name not in ("Domain", "Field", "Points") else ", ".join(fields)
         out.append(row(f"`{name}({takes})`" if takes else f"`{name}`", first_sentence(ast.get_docstring(node))))
         for member in node.body:
             if isinstance(member, ast.FunctionDef) and not member.name.startswith("_") and ast.get_docstring(member):

@@ -18,7 +18,7 @@
 namespace plexway {
 
 /// A domain whose distances are found on another one, its carrier: it has its own vertices,
-/// simplices and sources, and says where they are there.
+/// simplices and sources, and translates them.
 template <class D>
 concept CarriedDomainType = DomainType<D> && DomainType<typename D::Carrier> &&
     requires(const D& domain, const Source& source) {

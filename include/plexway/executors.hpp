@@ -61,7 +61,7 @@ struct OpenMP {
   /// where it is small (32,768) or pieces do not pay, which is the serial loop. Threads wait for
   /// each other once a superstep, some dozens to hundreds of times a solve. Another size gives
   /// other labels and merged windows, all of them as accurate. The first solve cuts the domain,
-  /// which takes about as long as a solve. Other domains go in rounds whatever this says. By
+  /// which takes about as long as a solve. Other domains go in rounds whatever its value. By
   /// windows an order other than Schedule::dual_queue, and a solve that keeps its windows for
   /// distances inside triangles, is one thread's.
   std::size_t piece = 0;

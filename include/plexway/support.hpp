@@ -9,7 +9,7 @@
 
 /// @file
 /// The table of what goes together. The sentences that say why something does not, and what domains
-/// themselves are asked, are in domain/support.hpp; what files, builds and shapes are, in
+/// themselves are checked for, are in domain/support.hpp; what files, builds and shapes are, in
 /// any/support.hpp.
 // Everything that can be solved, and everything that is refused and why, is decided in these three
 // and nowhere else; tests/house/one_table_test.cpp looks for other places.
@@ -52,7 +52,7 @@ struct Combination {
   bool in_parts = false;
 };
 
-/// A cell with what a solve's options tell.
+/// A cell with a solve's options.
 [[nodiscard]] Combination with(Combination what, const PropagateOptions& options);
 
 /// Could windows solve it (Accuracy)? Else why not. A team takes them in pieces, or has one thread
@@ -85,7 +85,7 @@ constexpr Support support_of_accuracy(const Combination& c) {
   return c.domain == DomainKind::solid ? support_of_strings(c) : support_of_windows(c);
 }
 
-/// What `usual` comes to in this cell; whatever else is asked for as it is.
+/// What `usual` comes to in this cell; any other accuracy as it is.
 [[nodiscard]] Accuracy resolved(Accuracy accuracy, const Combination& c);
 
 /// Does it go together?
@@ -142,7 +142,7 @@ constexpr Support support(const Combination& c) {
 }
 
 /// The cell of an executor and a domain as types, for the kinds of sources and options that may be
-/// given. (What only an object knows, such as a solid of lengths alone, counts as it is best.)
+/// given. (What only an object knows, such as a solid of intrinsic lengths, counts as it is best.)
 template <ExecutorType E, DomainType D>
 [[nodiscard]] constexpr Combination combination(SourceKind source = SourceKind::vertex,
                                                 Visibility visibility = Visibility::saddles,
@@ -362,7 +362,7 @@ constexpr Support support(Purpose purpose, DomainKind domain,
                            .metric = domain == DomainKind::solid ? MetricKind::embedded
                                                                  : MetricKind::intrinsic});
 }
-/// The cell of a complex, with everything that it tells, by default options.
+/// The cell of a complex, with all its properties, by default options.
 template <DomainType D>
 [[nodiscard]] constexpr Combination combination_of(const D& domain, ExecutorKind executor) {
   Combination what = {.executor = executor,
@@ -392,7 +392,7 @@ template <DomainType D>
 }
 
 /// What a purpose starts from: points alone, or vertex sets, balls, curves or simplices among them.
-/// (In C++ types tell; programs that take any source ask.)
+/// (In C++ the types decide; programs that take any source call it.)
 constexpr Support support_of_sources(Purpose purpose, bool only_points) {
   const bool by_points = purpose == Purpose::paths || purpose == Purpose::read_out ||
                          purpose == Purpose::directions || purpose == Purpose::searches ||

@@ -1,4 +1,4 @@
-"""What all domains can be asked."""
+"""What all domains have in common: distances, paths, matrices, samples, pictures."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ _CLASSES: Dict[str, Type["Domain"]] = {}
 
 
 class Domain:
-    """A space that distances are asked on: base of `Surface`, `Solid`, `Wireframe`, `Cloud`,
+    """A space with distances: the base of `Surface`, `Solid`, `Wireframe`, `Cloud`,
     `Mixed` and `Simplicial`.
 
     Domains do not change, may be used by any number of threads at once, and can be pickled.
@@ -107,13 +107,13 @@ class Domain:
 
     @property
     def components(self) -> int:
-        """Parts that no path connects."""
+        """The number of parts that no path connects."""
         count: int = self._native.components
         return count
 
     @property
     def dtype(self) -> np.dtype[Any]:
-        """Of its distances: float32, or float64 with precision='double'."""
+        """The type of its distances: float32, or float64 with precision='double'."""
         return np.dtype(np.float64 if self._native.double else np.float32)
 
     @property
@@ -125,7 +125,7 @@ class Domain:
         return found
 
     def info(self) -> Dict[str, Any]:
-        """What it is made of.
+        """Counts, sizes and how it was built.
 
         Returns
         -------
@@ -548,7 +548,7 @@ class Domain:
         visibility: str = "saddles",
         progress: ProgressLike = None,
     ) -> Field:
-        """A distance field that is kept, to ask it for ways and for the distance of any point.
+        """A distance field that is kept: it traces paths, and evaluates the distance of any point.
 
         Parameters
         ----------
@@ -569,8 +569,8 @@ class Domain:
         return Field(self, native)
 
     def path(self, source: Any, target: Place, *, margin: Optional[float] = None) -> Path:
-        """The shortest way from `target` to the nearest source. For several ways to one source keep
-        a `field`.
+        """The shortest path from `target` to the nearest source. For several paths to one source
+        keep a `field`.
 
         Parameters
         ----------

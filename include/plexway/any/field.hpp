@@ -27,7 +27,7 @@ enum class Triangulation {
 /// Which ones they became.
 struct TriangulationReport {
   Triangulation done = Triangulation::input;  ///< never automatic
-  /// Edges flipped on the way.
+  /// The number of edges that were flipped.
   std::size_t flips = 0;
   /// New vertices, by refinement.
   std::size_t inserted_vertices = 0;

@@ -62,7 +62,7 @@ struct MeasuredLengths {
   /// Of a mixed domain's simplices, all kinds in order, and of a solid's with regions to each
   /// speed.
   std::vector<double> speeds;
-  /// Simplices may measure an edge they share in two ways.
+  /// Simplices may give an edge that they share two lengths.
   bool refracts = false;
   /// They were to, but a solid of so many speeds, or of tensors, takes their mean.
   bool smoothed = false;
@@ -104,7 +104,7 @@ class AnyShape {
   /// Edges.
   [[nodiscard]] static AnyShape wireframe(Points positions,
                                           std::vector<std::array<Index, 2>> edges);
-  /// By lengths alone, one row a simplex, in the order of TriangleMesh, TetMesh and Wireframe.
+  /// Intrinsic lengths, one row a simplex, in the order of TriangleMesh, TetMesh and Wireframe.
   [[nodiscard]] static AnyShape surface(std::size_t vertices,
                                         std::vector<std::array<Index, 3>> triangles,
                                         std::vector<std::array<double, 3>> lengths);
@@ -182,8 +182,8 @@ class AnyShape {
   /// leads.
   [[nodiscard]] CurveSource joined(std::span<const PointSource> points) const;
   /// The whole boundary: of a surface as a curve, of a solid its faces (every vertex with its exact
-  /// distance; by lengths alone the boundary's vertices), of a wireframe the ends of single edges.
-  /// Throws InputError where there is none, UsageError for other kinds.
+  /// distance; of intrinsic lengths the boundary's vertices), of a wireframe the ends of single
+  /// edges. Throws InputError where there is none, UsageError for other kinds.
   [[nodiscard]] Source boundary(double offset = 0) const;
 
   /// Lengths by a metric. Triangles may measure an edge they share in two ways where the metric

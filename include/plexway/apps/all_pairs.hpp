@@ -41,9 +41,9 @@ struct PairsRequest {
   std::size_t block = 32;
   /// Which blocks are wanted; empty: all. Asked once for each, before the first row.
   std::function<bool(std::size_t block)> wanted = {};
-  /// Where others solve rows of the same matrix (row_ranks.hpp): asked for a block to solve, by any
-  /// thread, one at a time, until there is none; `wanted` is not asked then. Empty: all that are
-  /// wanted, in their order.
+  /// Where others solve rows of the same matrix (row_ranks.hpp): called for a block to solve, by
+  /// any thread, one at a time, until there is none; `wanted` is not called then. Empty: all that
+  /// are wanted, in their order.
   std::function<std::optional<std::size_t>()> next = {};
   /// Called by the calling thread after each of its rows. Returning false ends with Cancelled.
   std::function<bool(const PairsProgress&)> progress = {};
@@ -120,9 +120,9 @@ struct NearLimits {
 };
 
 /// The same, of entries that are near: within a radius, the k nearest, or both. The row's own
-/// vertex counts, with distance 0. `request.solve.radius` is not asked for.
+/// vertex counts, with distance 0. `request.solve.radius` has no meaning here.
 ///
-/// Each is what `all_pairs` says, up to rounding.
+/// Each is that of `all_pairs`, up to rounding.
 ///
 /// Cost: on surfaces and clouds a solve within the radius, which looks at every vertex (30 ns each
 /// beside what is reached); by Accuracy::fast, from points by the default rule, what a row reaches

@@ -26,7 +26,7 @@ class Cells;
 template <class Real>
 struct Solved;
 
-/// A distance field that can tell the way: what a solve learned, and the domain it holds on.
+/// A distance field that traces paths: what a solve learned, and the domain it holds on.
 ///
 /// @code
 ///   PathField field(mesh, positions);
@@ -90,14 +90,14 @@ class PathField<Domain<Real>> {
   /// What the last solve found. Vertices that a refinement put in come last.
   [[nodiscard]] const DistanceField<Real>& distances() const { return field_; }
 
-  /// The way from a point (its offset does not count) back to its nearest source: the shortest
+  /// The path from a point (its offset does not count) back to its nearest source: the shortest
   /// among those nearby, so that any small change makes it longer. Where no path leads, an empty
   /// path of infinite length.
   ///
   /// On surfaces it is straight over every edge and bends only at vertices with at least pi of
   /// surface on both sides. After windows (Accuracy) it is the one that they lead, as long as the
   /// distance: after Accuracy::exact() to rounding, else to what that is off. After labels it is at
-  /// most 1 % longer than the shortest way along edges, and mostly the shortest of all
+  /// most 1 % longer than the shortest path along edges, and mostly the shortest of all
   /// (TraceOptions, whose margin is refused elsewhere). On surfaces with refracting
   /// edges it is refracted, as on mixed domains (mixed_path_field.hpp). In solids it is the string
   /// to the point, as long as the distance by strings. Solids without coordinates are as if
@@ -120,7 +120,7 @@ class PathField<Domain<Real>> {
   /// vertices, so `linear`; the labels that other levels ask go on by about a simplex. After
   /// windows (Accuracy) all levels but `linear` ask those, and are as accurate as they are: exact
   /// after Accuracy::exact(). On surfaces with refracting edges and in solids by
-  /// lengths alone they are the lengths of paths.
+  /// intrinsic lengths they are the lengths of paths.
   ///
   /// Across an edge `neighbours` and `star` are continuous where the labels on both sides are all
   /// that is asked; docs/how-to/read-out.md has what jumps. Throws UsageError for a
@@ -185,7 +185,7 @@ class PathField<Domain<Real>> {
   Visibility visibility_ = Visibility::saddles;
   bool solved_ = false;
   Kept kept_ = Kept::nothing;
-  // Where paths are refracted, and in solids by lengths alone.
+  // Where paths are refracted, and in solids of intrinsic lengths.
   std::shared_ptr<const Cells> cells_;
   std::vector<double> cell_distance_;
 };

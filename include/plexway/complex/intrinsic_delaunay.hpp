@@ -115,7 +115,7 @@ template <class Real>
 /// flipped more than 4700 times. Always the same result for the same input.
 ///
 /// Stuck edges are a curiosity of surfaces that are not orientable: the flip would make a loop (an
-/// edge from a vertex to itself) of which a Delta-complex cannot tell on which side it is glued.
+/// edge from a vertex to itself) of which a Delta-complex does not know on which side it is glued.
 class IntrinsicDelaunay {
  public:
   /// Cost: a few flips a vertex at most on usual meshes, 0.1 us each, and 0.1 us a triangle;

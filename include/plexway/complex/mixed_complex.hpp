@@ -110,7 +110,7 @@ class MixedComplex {
 
   /// This domain with surfaces that share edges joined to one, and solids that share faces and
   /// measure them alike, where that makes no corner; null where there are none. Made when first
-  /// asked for, after the last change; may be asked for by several threads.
+  /// asked for, after the last change; may be called by several threads.
   [[nodiscard]] std::shared_ptr<const JoinedPieces<Real>> joined() const;
 
   /// Where the vertices of a piece lie, as it was added; may be empty.
@@ -168,7 +168,7 @@ class MixedComplex {
   std::vector<Member> members_;
   std::vector<Weld> welds_;
   std::vector<std::array<Index, 2>> outer_welds_;
-  /// What was asked for, a call of `weld` each.
+  /// The calls of `weld`, in order.
   struct Request {
     Index piece[2];
     WeldOptions options;

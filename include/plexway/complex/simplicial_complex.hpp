@@ -75,7 +75,8 @@ class SimplicialComplex {
   /// Of a simplex, one an edge: (0,1) (0,2) (1,2) (0,3) ...
   using Lengths = std::array<double, N*(N + 1) / 2>;
 
-  /// From lengths alone: one row a simplex, in the order (0,1) (0,2) (1,2) (0,3) (1,3) (2,3) (0,4)
+  /// From intrinsic lengths: one row a simplex, in the order (0,1) (0,2) (1,2) (0,3) (1,3) (2,3)
+  /// (0,4)
   /// ... of its corners. Two vertices have one edge: where simplices differ by rounding the mean is
   /// taken. Throws InputError naming the simplex for a vertex out of range or twice in it, a length
   /// that is negative or not finite, two lengths of one edge, and for no simplex or more than
@@ -94,7 +95,7 @@ class SimplicialComplex {
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
   /// Of dimension N.
   [[nodiscard]] std::size_t simplex_count() const { return records_.size(); }
-  /// Intrinsic: the lengths of edges are all that is asked for.
+  /// Intrinsic: the lengths of edges are all that is needed.
   [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
   /// What it is made of, counted while it was built.
   [[nodiscard]] const SimplicialSummary& summary() const { return summary_; }

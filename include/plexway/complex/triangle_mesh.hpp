@@ -122,7 +122,7 @@ class TriangleMesh {
   TriangleMesh(std::span<const std::array<double, 3>> positions,
                std::span<const std::array<Index, 3>> faces, const SurfaceHints& hints = {});
 
-  /// From lengths alone: lengths[f][i] is the length of the edge from corner i of face f to the
+  /// From intrinsic lengths: lengths[f][i] is the length of the edge from corner i of face f to the
   /// next, and must be the same from both sides (but for 1e-5, of which the mean is taken;
   /// InputError). Triangles are glued where two corners share both vertices. An edge longer than
   /// the way around by the other two is shortened to it, and so on (SurfaceSummary::violated_faces
@@ -185,9 +185,9 @@ class TriangleMesh {
   /// One unit inside, in the input's: the mean edge.
   [[nodiscard]] double unit() const { return summary_.mean_edge; }
   /// Where vertices (inside) lie in space, in units of the mean edge and about some origin; NaN
-  /// where that is not known. Empty where it is of none: lengths alone, or a metric.
+  /// where that is not known. Empty where it has none: intrinsic lengths, or a metric.
   [[nodiscard]] std::span<const std::array<double, 3>> positions() const { return positions_; }
-  /// Are triangles flat in space, with their corners where `positions` says?
+  /// Are triangles flat in space, with their corners at `positions`?
   [[nodiscard]] bool faces_are_in_space() const { return in_space_; }
   /// Ends of the chords at a vertex, all inside.
   struct ChordEnd {

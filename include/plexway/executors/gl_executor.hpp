@@ -47,7 +47,7 @@ struct GLDevice {
   /// For GL::device.
   int number = 0;
   ///@{
-  /// As OpenGL's driver says.
+  /// As OpenGL's driver reports it.
   std::string vendor, renderer, version;
   ///@}
   bool software = false;           ///< computes on the processor

@@ -55,7 +55,7 @@ struct SurfacePartsSummary {
 /// A point of a surface in parts.
 struct PartPoint {
   PointSource source;   ///< by the surface's numbers
-  double distance = 0;  ///< from the point that was asked for, in the input's unit
+  double distance = 0;  ///< from the given point, in the input's unit
 };
 
 /// What a process has of a surface, as it was read: the triangles of its pieces and their vertices,
@@ -110,7 +110,7 @@ class SurfaceParts {
   /// What it is made of.
   [[nodiscard]] const SurfacePartsSummary& summary() const;
   /// The nearest point of the surface: a vertex where rounding makes no difference, as AnyShape
-  /// does; of several, which rounding does not tell apart, that of the lowest face. Throws
+  /// does; of several, which rounding does not distinguish, that of the lowest face. Throws
   /// UsageError for coordinates that are not finite. Cost: two looks at each triangle.
   [[nodiscard]] PartPoint nearest(const std::array<double, 3>& point) const;
   /// The distance of every vertex of this part from the nearest of `sources`, which have the

@@ -46,7 +46,7 @@ PairsReport run_with_journal(PairsRequest request, BlockJournal& journal,
   } catch (...) {
     try {
       journal.flush(sync);
-    } catch (...) {  // the first error is the one to tell
+    } catch (...) {  // the first error is the one that counts
     }
     throw;
   }
@@ -66,7 +66,7 @@ struct RowOutput {
 };
 
 /// The rows that the journal lacks, into one file or several at once, by `solve(request, sink)`:
-/// all_pairs, or who shares rows with others. `wanted` is not asked for. Throws as `solve`,
+/// all_pairs, or who shares rows with others. `wanted` is not called. Throws as `solve`,
 /// BlockJournal and MatrixFile; what was finished before stays.
 template <class Real, class Solve>
 PairsReport write_rows(const PairsRequest& request, std::span<const RowOutput<Real>> outputs,

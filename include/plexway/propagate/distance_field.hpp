@@ -15,7 +15,8 @@ struct PropagateStatistics {
   /// Simplices that a label came to.
   std::size_t reached_simplices = 0;
   /// Surfaces, but for Accuracy::exact: vertices that came out farther than a neighbour and the
-  /// edge between, and that got the way by that neighbour. Many: the field is less accurate there.
+  /// edge between, and that were set to the length of that path. Many: the field is less accurate
+  /// there.
   std::size_t lowered_vertices = 0;
   /// Likewise vertices that came out nearer than the straight line through space by more than
   /// 1e-4 of it. They got its length, a bound that is mostly still too short.
@@ -24,7 +25,7 @@ struct PropagateStatistics {
   /// is `fast`. 0 or 1; more in sums over several fields.
   std::size_t windows_gave_up = 0;
   ///@{
-  /// In pieces (OpenMP): how often they exchanged letters, how many of these there were, of how
+  /// In pieces (OpenMP): how often they exchanged messages, how many of these there were, of how
   /// many bytes, and how many bytes this process sent to others (OpenMP::ranks).
   std::size_t supersteps = 0, letters = 0, letter_bytes = 0, sent_bytes = 0;
   ///@}
