@@ -814,7 +814,7 @@ class Domain:
         title : str
             Over the colour bar.
         cut : bool
-            Cut the half away that is nearer to the camera.
+            Cut it through the middle, across x; the half nearer to the camera goes.
 
         Returns
         -------
