@@ -219,8 +219,8 @@ class Domain:
         Returns
         -------
         ndarray, shape (n,)
-            float32, or float64 from a domain of precision 'double' or a source that needs it
-            (lines and triangles of surfaces). ``inf`` at vertices that are not reached.
+            float32, or float64 from a domain of precision 'double' and where 'exact', or lines and
+            triangles with 'fast', need it. ``inf`` at vertices that are not reached.
 
         Notes
         -----

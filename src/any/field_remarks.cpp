@@ -261,7 +261,7 @@ std::vector<Remark> work_remarks(const FieldWork& work, Reader reader) {
   const std::size_t lowered = done.lowered_vertices;
   if ((cured ? 50 : 20) * lowered > all)
     remark(counted(lowered, "vertices") + rows +
-           " came out farther than a neighbour and the edge between, and were given that way: "
+           " came out farther than a neighbour and the edge between, and were set to that length: "
            "distances here are less accurate" +
            cure);
   // Rounding turns a line of sight a little at each edge. Where a straight line in space is known
