@@ -334,7 +334,7 @@ class PairRun {
   }
 
   void compare_ways(MatrixFile& matrix, BlockJournal& journal) {
-    work_.stage("comparing the two ways");
+    work_.stage("comparing there and back");
     // Told once: by then some may have been made symmetric.
     if (journal.noted().empty()) journal.note(text_of(asymmetry_of(matrix)));
     report_.asymmetry = asymmetry_in(journal.noted());

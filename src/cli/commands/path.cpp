@@ -59,6 +59,7 @@ struct PathOutcome {
   std::vector<Path> paths;
   std::vector<double> distance;  // none where only a part was searched
   std::vector<double> promised;  // of each target, as the field has it
+  std::size_t simplices = 0;     // of a cloud those that it was made into
   TriangulationReport triangulation;
   PropagateStatistics statistics;
   std::vector<Remark> remarks;
@@ -75,6 +76,7 @@ PathOutcome run_paths(const Domain& domain, const BuildOptions& building,
   progress.phase("building");
   const AnyDomain built(domain, building);
   outcome.build = built.build_seconds();
+  outcome.simplices = built.simplices();
   outcome.remarks = domain_remarks(built, Reader::tool);
   const Stopwatch solving;
   if (command.astar) {
@@ -135,13 +137,12 @@ void report(const PathCommand& command, const Domain& domain, const PathOutcome&
   json["input"] = command.input;
   json["kind"] = domain.kind_name();
   json["vertices"] = domain.vertices();
-  json["simplices"] = domain.simplices();
+  json["simplices"] = outcome.simplices;
   json["paths"] = Json::array();
   table.add("input", command.input);
   if (!command.metric.text.empty()) table.add("metric", command.metric.text);
-  table.add(std::string(domain.kind_name()),
-            counted(domain.vertices(), "vertices") + ", " +
-                counted(domain.simplices(), domain.simplex_name()));
+  table.add(std::string(domain.kind_name()), counted(domain.vertices(), "vertices") + ", " +
+                                                 counted(outcome.simplices, domain.simplex_name()));
   for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
     const Path& path = outcome.paths[k];
     const bool reached = path.source != none;
