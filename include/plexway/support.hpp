@@ -10,7 +10,7 @@
 /// @file
 /// The table of what goes together. The sentences that say why something does not, and what domains
 /// themselves are checked for, are in domain/support.hpp; what files, builds and shapes are, in
-/// any/support.hpp.
+/// shape/support.hpp.
 // Everything that can be solved, and everything that is refused and why, is decided in these three
 // and nowhere else; tests/house/one_table_test.cpp looks for other places.
 namespace plexway {

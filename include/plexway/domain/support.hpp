@@ -5,7 +5,7 @@
 
 /// @file
 /// Why a combination is not supported, and what domains themselves are checked for.
-// The lowest part of the one table of what goes with what; support.hpp and any/support.hpp are the
+// The lowest part of the one table of what goes with what; support.hpp and shape/support.hpp are the
 // others.
 namespace plexway {
 
