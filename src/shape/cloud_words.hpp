@@ -4,7 +4,7 @@
 #include <string>
 
 #include <plexway/shape/cloud_shape.hpp>
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 
 namespace plexway {
 

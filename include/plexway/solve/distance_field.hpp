@@ -27,7 +27,7 @@ struct PropagateStatistics {
   ///@{
   /// In pieces (OpenMP): how often they exchanged messages, how many of these there were, of how
   /// many bytes, and how many bytes this process sent to others (OpenMP::ranks).
-  std::size_t supersteps = 0, letters = 0, letter_bytes = 0, sent_bytes = 0;
+  std::size_t supersteps = 0, messages = 0, message_bytes = 0, sent_bytes = 0;
   ///@}
 };
 

@@ -385,10 +385,10 @@ PairFilesReport run_on(const PairWork& work, const AnyExecutor& executor) {
               executor, [&](const auto& chosen) { run(chosen, *complex); });
       },
       of_rows.complex);
-  report.remarks = domain_remarks(built, work.files.reader);
-  for (Remark& one : rows_remarks(built, report.solved.statistics, work.files.solve.accuracy,
-                                  report.solved.rows, work.files.reader))
-    report.remarks.push_back(std::move(one));
+  report.warnings = domain_warnings(built, work.files.reader);
+  for (Warning& one : rows_warnings(built, report.solved.statistics, work.files.solve.accuracy,
+                                    report.solved.rows, work.files.reader))
+    report.warnings.push_back(std::move(one));
   return report;
 }
 

@@ -143,7 +143,7 @@ void take_rows(const MatrixCommand& command, const Domain& domain, ProgressLine&
 void print(const MatrixCommand& command, const Domain& domain, const PairFiles& files,
            const PairFilesReport& report) {
   Notes notes;
-  notes.add(report.remarks);
+  notes.add(report.warnings);
   Json json;
   Table table;
   json["input"] = command.input;

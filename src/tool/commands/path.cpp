@@ -13,9 +13,9 @@
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/paths.hpp>
-#include <plexway/shape/remarks.hpp>
 #include <plexway/shape/search.hpp>
 #include <plexway/shape/support.hpp>
+#include <plexway/shape/warnings.hpp>
 
 #include "io/number_rows.hpp"
 #include "shape/arguments/point_argument.hpp"
@@ -62,7 +62,7 @@ struct PathOutcome {
   std::size_t simplices = 0;     // of a cloud those that it was made into
   TriangulationReport triangulation;
   PropagateStatistics statistics;
-  std::vector<Remark> remarks;
+  std::vector<Warning> warnings;
   Accuracy accuracy = Accuracy::fast();
   std::string_view executor = "serial";
   double build = 0, solve = 0, trace = 0;
@@ -77,7 +77,7 @@ PathOutcome run_paths(const Domain& domain, const BuildOptions& building,
   const AnyDomain built(domain, building);
   outcome.build = built.build_seconds();
   outcome.simplices = built.simplices();
-  outcome.remarks = domain_remarks(built, Reader::tool);
+  outcome.warnings = domain_warnings(built, Reader::tool);
   const Stopwatch solving;
   if (command.astar) {
     progress.phase("searching");
@@ -99,8 +99,8 @@ PathOutcome run_paths(const Domain& domain, const BuildOptions& building,
   outcome.accuracy = field.field().accuracy();
   outcome.triangulation = field.field().triangulation;
   outcome.distance = field.field().doubles();
-  for (Remark& one : field_remarks(built, field.field(), sources, Reader::tool))
-    outcome.remarks.push_back(std::move(one));
+  for (Warning& one : field_warnings(built, field.field(), sources, Reader::tool))
+    outcome.warnings.push_back(std::move(one));
   progress.phase("tracing");
   const Stopwatch tracing;
   for (const PointSource& target : targets) {
@@ -204,7 +204,7 @@ Notes path_notes_on(const PathOutcome& outcome, const std::vector<PointSource>& 
     most = std::max(most, gap);
   }
   Notes notes;
-  notes.add(outcome.remarks);
+  notes.add(outcome.warnings);
   if (capped > 0)
     notes.add(counted(capped, "paths") +
               ": the search for a shorter one ended early, so there may be one");

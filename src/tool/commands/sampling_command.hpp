@@ -47,7 +47,7 @@ Notes with_sampled(const Domain& domain, Precision precision, const Use& use) {
   const AnyDomain built(domain, {.precision = precision, .triangulation = Triangulation::input});
   plexway::with_sampled(built, use);
   Notes notes;
-  notes.add(domain_remarks(built, Reader::tool));
+  notes.add(domain_warnings(built, Reader::tool));
   return notes;
 }
 

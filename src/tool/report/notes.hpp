@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 
 #include "shape/info/report.hpp"
 
@@ -14,8 +14,8 @@ namespace plexway::cli {
 class Notes {
  public:
   void add(std::string text) { texts_.push_back(std::move(text)); }
-  void add(const std::vector<Remark>& remarks) {
-    for (const Remark& remark : remarks) texts_.push_back(remark.text);
+  void add(const std::vector<Warning>& warnings) {
+    for (const Warning& warning : warnings) texts_.push_back(warning.text);
   }
   void add(const Notes& more) {
     texts_.insert(texts_.end(), more.texts_.begin(), more.texts_.end());
