@@ -35,12 +35,12 @@ namespace plexway {
 
 struct CloudSummary;
 
-/// What runs a solve.
+/// The executors: they run a solve.
 using AnyExecutor = std::variant<Serial, OpenMP, GL>;
 
 /// How a shape becomes a domain.
 struct BuildOptions {
-  /// What fields are solved in.
+  /// The precision of its fields.
   Precision precision = Precision::single;
   /// Of surfaces.
   Triangulation triangulation = Triangulation::automatic;
@@ -117,11 +117,11 @@ class AnyDomain {
   /// Delaunay triangles.
   void keep(const std::filesystem::path& file) const;
 
-  /// What it was made from.
+  /// The shape that it was made from.
   [[nodiscard]] const AnyShape& shape() const;
   /// The kind of the shape.
   [[nodiscard]] DomainKind kind() const { return shape().kind(); }
-  /// What fields are solved in.
+  /// The precision of its fields.
   [[nodiscard]] Precision precision() const;
   /// Of the shape: fields have one distance each.
   [[nodiscard]] std::size_t vertices() const { return shape().vertices(); }
@@ -134,11 +134,11 @@ class AnyDomain {
   [[nodiscard]] double mean_edge() const;
   /// Edges of a surface where paths are refracted.
   [[nodiscard]] std::size_t refracting_edges() const;
-  /// What a metric measured it by (BuildOptions::lengths); null without one.
+  /// The lengths that a metric gave it (BuildOptions::lengths); null without one.
   [[nodiscard]] const MeasuredLengths* lengths() const;
   /// Which of its simplices are open; null where all are.
   [[nodiscard]] const OpenSimplices* open_simplices() const;
-  /// What a cloud was made into, or null.
+  /// The triangles that a cloud was made into, or null.
   [[nodiscard]] const CloudSummary* cloud() const;
   /// Which triangles a surface is solved on, at first: see AnyField::triangulation.
   [[nodiscard]] const TriangulationReport& triangulation() const;

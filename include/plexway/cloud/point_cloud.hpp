@@ -43,7 +43,7 @@ struct CloudOptions {
   std::function<bool(double share)> progress = {};
 };
 
-/// What a cloud is made of, counted while it is built.
+/// The counts of a cloud, made while it is built.
 struct CloudSummary {
   /// As given.
   std::size_t points = 0;
@@ -107,7 +107,7 @@ class PointCloud {
   [[nodiscard]] std::size_t simplex_count() const { return surface_.face_count(); }
   /// Intrinsic: the lengths of the sheet's edges are all that counts.
   [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
-  /// What it is made of, counted while it was built.
+  /// Its counts, made while it was built.
   [[nodiscard]] const CloudSummary& summary() const { return summary_; }
   /// Bytes this complex holds.
   [[nodiscard]] std::size_t bytes() const;

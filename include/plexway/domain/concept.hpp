@@ -8,7 +8,7 @@
 
 namespace plexway {
 
-/// What kind of space a domain is.
+/// The kinds of domains.
 enum class DomainKind {
   surface,    ///< TriangleMesh
   solid,      ///< TetMesh

@@ -17,7 +17,7 @@ namespace plexway {
 /// end the others, which wait for it.
 class PieceRanks {
  public:
-  /// What goes from one to another.
+  /// The messages from one to another.
   using Bytes = std::span<const std::byte>;
 
   virtual ~PieceRanks() = default;

@@ -33,7 +33,7 @@ class SurfaceRows {
   virtual void read_faces(std::size_t first, std::span<std::array<Index, 3>> corners) const = 0;
 };
 
-/// What a surface in parts is made of.
+/// The counts of a surface in parts.
 struct SurfacePartsSummary {
   ///@{
   /// Of the whole surface.
@@ -107,7 +107,7 @@ class SurfaceParts {
   SurfaceParts(SurfaceParts&&) noexcept;             ///< Leaves nothing that may be used.
   SurfaceParts& operator=(SurfaceParts&&) noexcept;  ///< Leaves nothing that may be used.
 
-  /// What it is made of.
+  /// Its counts.
   [[nodiscard]] const SurfacePartsSummary& summary() const;
   /// The nearest point of the surface: a vertex where rounding makes no difference, as AnyShape
   /// does; of several, which rounding does not distinguish, that of the lowest face. Throws
@@ -119,7 +119,7 @@ class SurfaceParts {
   /// (`fast`; statistics.windows_gave_up).
   [[nodiscard]] PartField<Real> solve(std::span<const PointSource> sources,
                                       const PropagateOptions& options = {});
-  /// What this process has. Reads positions anew.
+  /// The part of this process. Reads positions anew.
   [[nodiscard]] SurfacePart part(const SurfaceRows& rows) const;
   /// Bytes held.
   [[nodiscard]] std::size_t bytes() const;

@@ -8,7 +8,7 @@
 
 namespace plexway::io {
 
-/// What a reader did besides taking what a file has.
+/// What a reader cut, dropped, passed over or repaired.
 struct FileReport {
   std::size_t split_polygons = 0;  ///< of more than three corners, cut into triangles
   std::size_t split_cells = 0;     ///< hexahedra, prisms and pyramids, cut into tetrahedra

@@ -11,7 +11,7 @@
 
 namespace plexway::io {
 
-/// What the numbers of a matrix are.
+/// The number type of a matrix.
 enum class MatrixNumber { float16, float32, float64 };
 /// Throws UsageError for a name that does not exist.
 [[nodiscard]] MatrixNumber matrix_number_of(std::string_view name);

@@ -23,7 +23,7 @@
 
 namespace plexway::io {
 
-/// What a domain's rows are handed over in.
+/// The precision of a domain's rows.
 template <class D>
 struct RowNumber {
   /// Its own numbers; double where they are hidden (shape/pairs.hpp).
@@ -56,7 +56,7 @@ PairsReport run_with_journal(PairsRequest request, BlockJournal& journal,
 
 }  // namespace detail
 
-/// What is made of a row of distances, and into which file it goes.
+/// How a row of distances is reduced, and the file it goes to.
 template <class Real>
 struct RowOutput {
   /// With a row for each of the request's.

@@ -24,7 +24,7 @@ enum class Sides {
 
 /// How simplices that share an edge agree on its length.
 struct Agreement {
-  /// Whose length it has.
+  /// The simplex whose length it has.
   Sides sides = Sides::mean;
   double jump = 0.15;  ///< as a share of the longer
 };

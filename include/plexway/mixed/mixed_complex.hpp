@@ -30,7 +30,7 @@ struct WeldOptions {
   bool all_vertices = false;  ///< every welded vertex
 };
 
-/// What a mixed domain is made of.
+/// The counts of a mixed domain.
 struct MixedSummary {
   ///@{
   /// Of all pieces; a welded vertex counts in each of them.
@@ -57,7 +57,7 @@ class MixedComplex {
   /// The greatest that a piece may have.
   static constexpr int dimension = 3;
 
-  /// What a piece may be.
+  /// The kinds of pieces.
   using Complex = std::variant<TriangleMesh<Real>, TetMesh<Real>, Wireframe<Real>>;
 
   /// A piece's place in the numbering of the whole.
@@ -93,7 +93,7 @@ class MixedComplex {
   [[nodiscard]] std::size_t simplex_count() const { return summary_.simplices; }
   /// Intrinsic, whatever its pieces have.
   [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
-  /// What it is made of.
+  /// Its counts.
   [[nodiscard]] const MixedSummary& summary() const { return summary_; }
   /// In the order in which they were added.
   [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }

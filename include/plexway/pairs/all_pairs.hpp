@@ -29,7 +29,7 @@ struct PairsProgress {
   double seconds_left;     ///< at that rate; +inf until a row is done
 };
 
-/// What a matrix is of.
+/// The rows, columns and options of a matrix.
 struct PairsRequest {
   /// A source a row, of any kind that solves on the domain; nothing: every vertex.
   std::optional<SourceList> rows;
@@ -39,7 +39,7 @@ struct PairsRequest {
   PropagateOptions solve = {};
   /// Rows come in blocks of so many, block b from row b * block on; the last may have fewer.
   std::size_t block = 32;
-  /// Which blocks are wanted; empty: all. Asked once for each, before the first row.
+  /// Which blocks are wanted; empty: all. Called once for each, before the first row.
   std::function<bool(std::size_t block)> wanted = {};
   /// Where others solve rows of the same matrix (row_ranks.hpp): called for a block to solve, by
   /// any thread, one at a time, until there is none; `wanted` is not called then. Empty: all that
@@ -72,7 +72,7 @@ struct PairsSink {
   std::function<void(std::size_t block)> block = {};
 };
 
-/// A row with all its columns, +inf where no path leads.
+/// A row with all its columns, +inf where unreachable.
 template <class Real>
 using DenseRow = std::span<const Real>;
 
@@ -87,11 +87,11 @@ struct NearEntry {
 template <class Real>
 using SparseRow = std::span<const NearEntry<Real>>;
 
-/// Who solves rows, one thread a source.
+/// The executors that solve rows, one thread a source.
 template <class E>
 concept RowExecutor = std::same_as<E, Serial> || std::same_as<E, OpenMP>;
 
-/// What a run did.
+/// The result of a run.
 struct PairsReport {
   std::size_t rows = 0;            ///< solved, which leaves out what was not wanted
   bool complete = true;            ///< false if max_expansions ended a row early

@@ -55,7 +55,7 @@ class PathField<PointCloud<Real>> {
     return solve(executor, std::span<const PointSource>(&source, 1), options);
   }
 
-  /// What the last solve found.
+  /// The field of the last solve.
   [[nodiscard]] const DistanceField<Real>& distances() const { return field_; }
 
   /// The path from a point of the cloud back to its nearest source, as on surfaces. Throws

@@ -56,7 +56,7 @@ class PathField<MixedComplex<Real>> {
   /// Distances from the same sources found elsewhere, one a vertex of the domain.
   void adopt(DistanceField<Real> found, std::span<const PointSource> sources);
 
-  /// What the last solve found.
+  /// The field of the last solve.
   [[nodiscard]] const DistanceField<Real>& distances() const { return field_; }
 
   /// The path from a point back to its nearest source: no small change makes it shorter. It crosses

@@ -35,7 +35,7 @@ struct TraceOptions {
 /// A path through a domain, from the given point back to the source.
 ///
 /// The straight line from each point to the next lies in the simplex of the first of the two, so
-/// the path never leaves the domain. It is empty, and its length +inf, where no path leads; from a
+/// the path never leaves the domain. It is empty, and its length +inf, where none exists; from a
 /// source that no simplex has to itself it is empty and 0 long.
 struct Path {
   /// From the given point to the source.

@@ -87,11 +87,11 @@ class PathField<Domain<Real>> {
     return solve(executor, std::span<const PointSource>(&source, 1), options);
   }
 
-  /// What the last solve found. Vertices that a refinement put in come last.
+  /// The field of the last solve. Vertices that a refinement put in come last.
   [[nodiscard]] const DistanceField<Real>& distances() const { return field_; }
 
   /// The path from a point (its offset does not count) back to its nearest source: the shortest
-  /// among those nearby, so that any small change makes it longer. Where no path leads, an empty
+  /// among those nearby, so that any small change makes it longer. Where none exists, an empty
   /// path of infinite length.
   ///
   /// On surfaces it is straight over every edge and bends only at vertices with at least pi of
@@ -138,12 +138,12 @@ class PathField<Domain<Real>> {
   [[nodiscard]] std::vector<double> at(std::span<const PointSource> points,
                                        ReadOut level = ReadOut::neighbours) const;
   /// The direction away from the source at the centre of each triangle or tetrahedron, caller's
-  /// order: of length 1, in the triangle's plane; 0 where no path leads, or the source is there.
+  /// order: of length 1, in the triangle's plane; 0 where unreachable, or the source is there.
   /// Needs labels as `at`, and on surfaces positions. UsageError for wireframes.
   [[nodiscard]] std::vector<std::array<double, 3>> gradient() const;
 
   /// The source that the label of each simplex leads to, caller's order: the nearest to its centre,
-  /// by its place in the list; none where no path leads. Surfaces and solids; throws as `at`, but
+  /// by its place in the list; none where unreachable. Surfaces and solids; throws as `at`, but
   /// any policy will do.
   [[nodiscard]] std::vector<Index> simplex_labels() const;
 
@@ -157,7 +157,7 @@ class PathField<Domain<Real>> {
   PathField(const Domain<Real>& domain, const IntrinsicDelaunay* delaunay,
             const Domain<Real>& given, std::span<const std::array<double, 3>> positions);
   [[nodiscard]] Support support_of(Purpose purpose) const;
-  /// What the workspace has of the field.
+  /// The field as the workspace has it.
   enum class Kept { nothing, labels, windows };  // in solids strings
   /// Where they are in the domain.
   std::span<const PointSource> take(std::span<const PointSource> sources);

@@ -16,7 +16,7 @@
 
 namespace plexway {
 
-/// What leads a search, and when it stops.
+/// How a search is led, and when it stops.
 struct SearchOptions {
   /// A lower bound of the distance from a vertex (caller's number) to the nearest target, in the
   /// domain's unit. It must change by no more than the distance from vertex to vertex. Empty: the
@@ -28,14 +28,14 @@ struct SearchOptions {
   std::function<bool(const Progress&)> progress = {};  ///< as in PropagateOptions
 };
 
-/// What a search found.
+/// The result of a search.
 struct SearchResult {
-  /// One a target, in their order; empty, of infinite length, where no path leads.
+  /// One a target, in their order; empty, of infinite length, where unreachable.
   std::vector<Path> paths;
   std::vector<double> distance;  ///< as labels have it, before paths are pulled straight
   /// False if max_expansions ended the search early.
   bool complete = true;
-  /// What it cost.
+  /// The work that it took.
   PropagateStatistics statistics;
 };
 

@@ -18,7 +18,7 @@ namespace plexway {
 /// Points with their neighbours. Thinned and denoised points are gone: numbers count those kept,
 /// and `points.original` has those in the file.
 struct CloudShape {
-  /// Those kept.
+  /// The points that were kept.
   io::Points points;
   /// Where paths are measured, one a point; empty: at the points.
   std::vector<std::array<double, 3>> smoothed;

@@ -112,7 +112,7 @@ class AnyField {
   [[nodiscard]] Accuracy accuracy() const {
     return std::visit([](const auto& f) { return f.accuracy; }, data);
   }
-  /// What it cost.
+  /// The work that it took.
   [[nodiscard]] const PropagateStatistics& statistics() const {
     return std::visit([](const auto& f) -> const PropagateStatistics& { return f.statistics; },
                       data);

@@ -57,7 +57,7 @@ struct ReadProgress {
   std::function<void(std::string_view)> note = {};  ///< a line for people
 };
 
-/// What messages call an option: a field of these structs, or a flag of the command line.
+/// The name of an option in messages: a field of these structs, or a flag of the command line.
 enum class Spelling {
   fields,  ///< max_volume
   flags,   ///< --max-volume
@@ -67,7 +67,7 @@ enum class Spelling {
 
 /// How to read a domain from a file.
 struct ReadOptions {
-  /// What to take it as; nothing: what the file holds. A surface may be taken as a solid (it is
+  /// The kind to take it as; empty: what the file holds. A surface may be taken as a solid (it is
   /// filled), its edges as a wireframe, its vertices as a cloud; a .msh, .vtu or .vtk as mixed:
   /// with its lines and triangles beside its tetrahedra.
   std::optional<DomainKind> as = {};

@@ -126,7 +126,7 @@ class AnyShape {
 
   /// The file, or empty.
   [[nodiscard]] const std::filesystem::path& file() const;
-  /// What it holds.
+  /// The data that it holds.
   [[nodiscard]] const Data& data() const;
   /// Its kind.
   [[nodiscard]] DomainKind kind() const;
@@ -138,7 +138,7 @@ class AnyShape {
   }
   /// Of its simplices; of a mixed domain the greatest.
   [[nodiscard]] int dimension() const;
-  /// What its simplices are called, in the plural.
+  /// The name of its simplices, in the plural.
   [[nodiscard]] std::string_view simplex_name() const;
   /// Points, of a cloud.
   [[nodiscard]] std::size_t vertices() const;
@@ -156,7 +156,7 @@ class AnyShape {
   /// of no such file, or whose simplices are not the file's.
   [[nodiscard]] std::vector<std::int64_t> regions() const;
 
-  /// What was done with a file besides taking what it has.
+  /// What was cut, dropped, passed over or repaired of its file.
   [[nodiscard]] const io::FileReport& report() const;
   /// Simplices with a vertex twice, by their numbers: no domain is built of them.
   [[nodiscard]] std::span<const Index> collapsed() const;

@@ -20,7 +20,7 @@ namespace plexway {
 
 struct TetLayout;
 
-/// What a solid is made of, counted while it is built.
+/// The counts of a solid, made while it is built.
 struct SolidSummary {
   /// Referenced or not: as many as were given.
   std::size_t vertices = 0;
@@ -36,7 +36,7 @@ struct SolidSummary {
   std::size_t reflex_vertices = 0;        ///< ends of reflex edges, and pinched vertices
   std::size_t pinched_vertices = 0;       ///< tetrahedra touch there in the vertex only
   std::size_t pinched_edges = 0;          ///< tetrahedra touch there in the edge only
-  std::size_t unreferenced_vertices = 0;  ///< in no tetrahedron: no path leads to them
+  std::size_t unreferenced_vertices = 0;  ///< in no tetrahedron: unreachable
   std::size_t degenerate_tets = 0;        ///< no volume, in the input's precision
   std::size_t inverted_tets = 0;          ///< negative volume as given; turned over
   /// The lowest number of such a tetrahedron; none: there is none.
@@ -92,7 +92,7 @@ class TetMesh {
   [[nodiscard]] MetricKind metric() const {
     return summary_.embedded ? MetricKind::embedded : MetricKind::intrinsic;
   }
-  /// What it is made of, counted while it was built.
+  /// Its counts, made while it was built.
   [[nodiscard]] const SolidSummary& summary() const { return summary_; }
   /// Has it coordinates?
   [[nodiscard]] bool embedded() const { return summary_.embedded; }

@@ -8,7 +8,7 @@
 
 namespace plexway {
 
-/// What a propagation cost.
+/// The work that a solve took.
 struct PropagateStatistics {
   std::size_t expansions = 0;  ///< simplices taken from the queue
   std::size_t updates = 0;     ///< labels accepted
@@ -33,7 +33,7 @@ struct PropagateStatistics {
 
 /// Distances at the vertices, in the caller's order and the domain's unit.
 ///
-/// +inf where no path leads (or beyond the radius), exactly the source's offset (0 by default) at a
+/// +inf where unreachable (or beyond the radius), exactly the source's offset (0 by default) at a
 /// source vertex, never NaN.
 template <class Real>
 struct DistanceField {
@@ -45,7 +45,7 @@ struct DistanceField {
   std::vector<Real> error;
   Accuracy accuracy = Accuracy::fast();  ///< by which it was solved, never `usual`
   bool complete = true;                  ///< false if max_expansions, or limits of ours, ended it
-  /// What it cost.
+  /// The work that it took.
   PropagateStatistics statistics;
 };
 

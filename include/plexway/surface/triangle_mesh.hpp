@@ -20,7 +20,7 @@ class FaceLayout;
 class IntrinsicDelaunay;
 class TriangleShapes;
 
-/// What a surface is made of, counted while it is built.
+/// The counts of a surface, made while it is built.
 struct SurfaceSummary {
   /// Referenced or not: as many as were given.
   std::size_t vertices = 0;
@@ -32,7 +32,7 @@ struct SurfaceSummary {
   std::size_t boundary_edges = 0;
   std::size_t non_manifold_edges = 0;     ///< more than two triangles
   std::size_t pinched_vertices = 0;       ///< several fans of triangles meet there only
-  std::size_t unreferenced_vertices = 0;  ///< in no triangle: no path leads to them
+  std::size_t unreferenced_vertices = 0;  ///< in no triangle: unreachable
   std::size_t degenerate_faces = 0;       ///< no area, in the input's precision
   std::size_t violated_faces = 0;  ///< lengths broke the triangle inequality (see the constructor)
   std::size_t refracting_edges = 0;  ///< with another length on either side (SurfaceHints)
@@ -153,7 +153,7 @@ class TriangleMesh {
   [[nodiscard]] MetricKind metric() const {
     return summary_.refracting_edges > 0 ? MetricKind::refracting : MetricKind::intrinsic;
   }
-  /// What it is made of, counted while it was built.
+  /// Its counts, made while it was built.
   [[nodiscard]] const SurfaceSummary& summary() const { return summary_; }
   /// Bytes this complex holds.
   [[nodiscard]] std::size_t bytes() const;
