@@ -247,7 +247,7 @@ TEST_CASE("ways that are refracted and bend around edges of a solid are told") {
     BuildOptions building{.precision = Precision::twice};
     metric::SimplexSpeeds speeds{.speed = speed, .agreement = {metric::Sides::own}};
     building.lengths = std::make_shared<const MeasuredLengths>(shape.measure(speeds));
-    return warnings(shape, building, Accuracy::fast(), "around which ways bend, and faces");
+    return warnings(shape, building, Accuracy::fast(), "around which paths bend, and faces");
   };
   const auto whole = [](std::size_t, std::size_t, std::size_t) { return true; };
   const auto pierced = [](std::size_t x, std::size_t y, std::size_t) {
@@ -301,7 +301,7 @@ TEST_CASE("where vertices may be too far behind several edges of a mixed domain 
     return AnyDomain(wired ? AnyShape::mixed(shape) : AnyShape::solid(solid.places, solid.tets),
                      {});
   };
-  const std::string cracks = "the domain have cracks", several = "ways from several sources bend";
+  const std::string cracks = "the domain have cracks", several = "paths from several sources bend";
   const std::vector<Source> one = {PointSource::at(0)};
   const std::vector<Source> two = {PointSource::at(0), PointSource::at(8)};
   const AnyDomain slit = prism({{{2, 4}, {6, 4}}});

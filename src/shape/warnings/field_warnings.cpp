@@ -184,7 +184,7 @@ std::vector<Warning> domain_warnings(const AnyDomain& solver, Reader reader) {
               false);
     if (100 * cloud->bridges > cloud->distinct)
       warning(counted(cloud->bridges, "points") +
-              " hang together by single edges: no surface was found there, and ways go from point "
+              " hang together by single edges: no surface was found there, and paths go from point "
               "to point; more neighbours may help (" +
               said(Advice::k) + std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) +
               ")");
@@ -206,16 +206,17 @@ std::vector<Warning> domain_warnings(const AnyDomain& solver, Reader reader) {
               "near the ridge or less noise (" +
               said(Advice::smooth) + ") help, and " + cure);
     if (cloud->joints > 0)
-      warning(counted(cloud->joints, "pairs") +
-              " of points join parts that have no triangles between them: all ways from one to the "
-              "other go over these; " +
-              (refused ? "" : "normals" + given + " " + columns + " or ") +
-              "points along the edge where they meet would join them");
+      warning(
+          counted(cloud->joints, "pairs") +
+          " of points join parts that have no triangles between them: all paths from one to the "
+          "other go over these; " +
+          (refused ? "" : "normals" + given + " " + columns + " or ") +
+          "points along the edge where they meet would join them");
   }
   if (const BentCrossings bent = bent_crossings(solver); bent.hinges > 0)
     warning("solids have " + counted(bent.edges, "edges") +
-            " around which ways bend, and faces or edges where the speed changes: single vertices "
-            "whose ways do both may be up to a sixth too far" +
+            " around which paths bend, and faces or edges where the speed changes: single vertices "
+            "whose paths do both may be up to a sixth too far" +
             (bent.cracks > 0 ? ", most of all where cracks end on such faces; where cracks join on "
                                "one, single vertices may be too near, by a quarter at worst"
                              : ""));
@@ -223,7 +224,7 @@ std::vector<Warning> domain_warnings(const AnyDomain& solver, Reader reader) {
   if (const SolidBends bends = solid_bends(solver); bends.cracks > 0 && bends.edges > 2)
     warning(
         "solids of the domain have cracks, and " + counted(bends.edges, "edges") +
-        " around which ways bend: single vertices behind several of them may be up to a quarter "
+        " around which paths bend: single vertices behind several of them may be up to a quarter "
         "too far");
   return warnings;
 }
@@ -319,13 +320,13 @@ std::vector<Warning> field_warnings(const AnyDomain& solver, const AnyField& fie
               " is the first) " +
               (detours.all ? detours.points == 1 ? "is" : "are" : "and more are") + " 5 to " +
               std::to_string(static_cast<int>(std::ceil(100 * detours.most))) +
-              " % farther from the source than straight, though the cloud is flat there: ways go "
+              " % farther from the source than straight, though the cloud is flat there: paths go "
               "around a notch in its rim or a void; that is too far if the surface does not end "
               "there, and more points there help");
   }
   if (const std::size_t edges = are_several(sources) ? solid_bends(solver).edges : 0; edges > 0)
     warning(
-        "ways from several sources bend around " + counted(edges, "edges") +
+        "paths from several sources bend around " + counted(edges, "edges") +
         " of solids: single vertices between what is nearest to the one and to the other "
         "may be up to a quarter too far; the least of a field from each source is more accurate");
   FieldWork work = work_of(solver, field.statistics(), field.accuracy());
