@@ -98,6 +98,12 @@ def check_commands(page, text, options):
                     faults.append(f"{page.relative_to(root)}: plexway {command} has no {option[1]}: {line.strip()}")
 
 
+def check_width(page, text):
+    for number, line in enumerate(without_code(text).splitlines(), 1):
+        if len(line) > 100 and not re.match(r"\s*(\||#|<|!|>>>)", line):
+            faults.append(f"{page.relative_to(root)}:{number}: more than 100 columns")
+
+
 def check_figures():
     """Rows of the comparison in README.md and docs/ have the figures of the page that measured them."""
     log = (root / "docs/log/peers.md").read_text()
@@ -133,6 +139,8 @@ def house_words():
             continue
         count = 0
         for line in (root / name).read_text(errors="replace").splitlines():
+            if line.startswith("#include"):
+                continue
             if prose:
                 line = re.sub(r"`[^`]*`", "", line)
             elif not name.endswith((".py", ".pyi", ".html")):
@@ -153,6 +161,8 @@ def main():
     for page in pages():
         text = page.read_text()
         led |= check_links(page, text)
+        if page.name != "support.md":  # made by a program
+            check_width(page, text)
         if options and "docs/log" not in str(page):
             check_commands(page, text, options)
     check_figures()

@@ -94,6 +94,7 @@ if(TARGET plexway_tool)
     DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d" COMPONENT tool)
   install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
       "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/docs/reference/cli.md"
+      "${PROJECT_SOURCE_DIR}/docs/reference/options.md"
       "${PROJECT_SOURCE_DIR}/docs/reference/formats.md"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/plexway" COMPONENT tool)
 endif()

@@ -14,14 +14,16 @@
 #ifdef PLEXWAY_HAS_RENDER
 #include <plexway/render/picture.hpp>
 
-// The tissue cut open, with all of the vessels.
+// The tissue cut below the vessels, with all of these, in a veil of the whole.
 void draw(const char* file, plexway::render::Part tissue, plexway::render::Part vessels) {
   vessels.whole = true;
+  plexway::render::Part veil = tissue;
+  veil.ghost = veil.whole = true;
   plexway::render::Scene scene;
-  scene.parts = {tissue, vessels};
+  scene.parts = {tissue, vessels, veil};
   scene.sources = {vessels.positions[0]};
   plexway::render::PictureOptions options;
-  options.clip = plexway::render::Clip{{0, 0, 1}, 0.05};
+  options.clip = plexway::render::Clip{{0, 0, 1}, -0.25};
   options.width = 640, options.height = 480;
   options.view = plexway::render::View{-20, 50};
   options.title = "seconds";

@@ -11,10 +11,10 @@
 
 namespace plexway {
 
-int threads_for(int asked) {
+int threads_for(int requested) {
   // Once a process: the system reads it from files, which is ten times a small domain's work.
   static const int all = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
-  return asked > 0 ? asked : all;
+  return requested > 0 ? requested : all;
 }
 
 void for_blocks(std::size_t count, std::size_t block, int threads,

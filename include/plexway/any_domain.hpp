@@ -35,12 +35,12 @@ namespace plexway {
 
 struct CloudSummary;
 
-/// What runs a solve.
+/// The executors: they run a solve.
 using AnyExecutor = std::variant<Serial, OpenMP, GL>;
 
 /// How a shape becomes a domain.
 struct BuildOptions {
-  /// What fields are solved in.
+  /// The precision of its fields.
   Precision precision = Precision::single;
   /// Of surfaces.
   Triangulation triangulation = Triangulation::automatic;
@@ -56,13 +56,13 @@ struct BuildOptions {
   std::function<bool(double)> progress = {};
 };
 
-/// A distance field that can tell the way and the distance of any point, kind and precision hidden;
+/// A distance field that traces paths and evaluates any point, kind and precision hidden;
 /// see PathField. Keeps what it refers to. Any number of threads may ask at once.
 class AnyPathField {
  public:
   /// The distances that it was made from.
   [[nodiscard]] const AnyField& field() const;
-  /// The way from a point back to its nearest source; points of a path lie in simplices of the
+  /// The path from a point back to its nearest source; points of a path lie in simplices of the
   /// shape, but of a cloud in triangles of its sheet. `positions` are empty where the shape has
   /// none, or lengths by a metric. Throws and costs as PathField::trace.
   [[nodiscard]] Path trace(const PointSource& point, const TraceOptions& options = {}) const;
@@ -111,17 +111,17 @@ class AnyDomain {
   /// as any other (AnyShape::read) and then maps into memory instead of being built: fields have
   /// the same bits. Any number of processes may share its memory. The file is for this version of
   /// the library and for machines with this byte order; it has a checksum, and one that is foreign
-  /// or damaged is refused (InputError). Where other BuildOptions are asked for the shape is built
+  /// or damaged is refused (InputError). With other BuildOptions the shape is built
   /// anew. Surfaces, solids, wireframes and clouds, without a metric or a mask (UsageError); throws
   /// Error "cannot write FILE: reason". Size in single precision: 110 bytes a triangle, 150 on
   /// Delaunay triangles.
   void keep(const std::filesystem::path& file) const;
 
-  /// What it was made from.
+  /// The shape that it was made from.
   [[nodiscard]] const AnyShape& shape() const;
   /// The kind of the shape.
   [[nodiscard]] DomainKind kind() const { return shape().kind(); }
-  /// What fields are solved in.
+  /// The precision of its fields.
   [[nodiscard]] Precision precision() const;
   /// Of the shape: fields have one distance each.
   [[nodiscard]] std::size_t vertices() const { return shape().vertices(); }
@@ -134,11 +134,11 @@ class AnyDomain {
   [[nodiscard]] double mean_edge() const;
   /// Edges of a surface where paths are refracted.
   [[nodiscard]] std::size_t refracting_edges() const;
-  /// What a metric measured it by (BuildOptions::lengths); null without one.
+  /// The lengths that a metric gave it (BuildOptions::lengths); null without one.
   [[nodiscard]] const MeasuredLengths* lengths() const;
   /// Which of its simplices are open; null where all are.
   [[nodiscard]] const OpenSimplices* open_simplices() const;
-  /// What a cloud was made into, or null.
+  /// The triangles that a cloud was made into, or null.
   [[nodiscard]] const CloudSummary* cloud() const;
   /// Which triangles a surface is solved on, at first: see AnyField::triangulation.
   [[nodiscard]] const TriangulationReport& triangulation() const;
@@ -147,7 +147,7 @@ class AnyDomain {
   /// Bytes held, workspaces included, but not the shape.
   [[nodiscard]] std::size_t bytes() const;
 
-  /// Does it go together? By the table of support.hpp, with everything that values tell.
+  /// Is it supported? By the table of support.hpp, with all that values decide.
   [[nodiscard]] Support support(const AnyExecutor& executor, const SourceList& sources,
                                 const PropagateOptions& options = {}) const;
 
@@ -179,10 +179,10 @@ class AnyDomain {
   bool solve_each(const AnyExecutor& executor, const SourceList& sources,
                   const PropagateOptions& options, std::span<float> rows) const;
 
-  /// A field that can tell ways, but on complexes none, and there `at` takes ReadOut::linear alone
-  /// (UsageError); on mixed domains other levels are ways' lengths. Distances are those of `solve`;
-  /// ways lie in the shape's triangles. Cost: a solve, and once building those where others were
-  /// taken.
+  /// A field that traces paths; on complexes of simplices it does not, and there `at` takes
+  /// ReadOut::linear alone (UsageError); on mixed domains other levels are lengths of paths.
+  /// Distances are those of `solve`; paths lie in the shape's triangles. Cost: a solve, and once
+  /// building those where others were taken.
   [[nodiscard]] AnyPathField path_field(const AnyExecutor& executor,
                                         std::span<const PointSource> sources,
                                         const PropagateOptions& options = {}) const;

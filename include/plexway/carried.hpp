@@ -13,12 +13,12 @@
 #include <plexway/solve.hpp>
 
 /// @file
-/// Domains of your own: derive from CarriedDomain, and every executor, source and option that goes
-/// together with the carrier goes together with it. examples/hexagons.cpp is one.
+/// Domains of your own: derive from CarriedDomain, and every executor, source and option that
+/// the carrier supports works with it. examples/hexagons.cpp is one.
 namespace plexway {
 
 /// A domain whose distances are found on another one, its carrier: it has its own vertices,
-/// simplices and sources, and says where they are there.
+/// simplices and sources, and translates them.
 template <class D>
 concept CarriedDomainType = DomainType<D> && DomainType<typename D::Carrier> &&
     requires(const D& domain, const Source& source) {
@@ -27,7 +27,7 @@ concept CarriedDomainType = DomainType<D> && DomainType<typename D::Carrier> &&
   { domain.carried_vertices() } -> std::same_as<std::span<const Index>>;
 };
 
-/// What such a domain derives from: `class Mine : public CarriedDomain<Mine, Wireframe<float>>`. It
+/// The base of such a domain: `class Mine : public CarriedDomain<Mine, Wireframe<float>>`. It
 /// gives its base a carrier, and may say
 ///
 ///   PointSource place(const PointSource&) const    where a point of its simplices is in the
@@ -38,7 +38,7 @@ concept CarriedDomainType = DomainType<D> && DomainType<typename D::Carrier> &&
 template <class Derived, DomainType C>
 class CarriedDomain {
  public:
-  /// What it is solved on.
+  /// The carrier, which it is solved on.
   using Carrier = C;
   /// The precision of fields.
   using Number = typename C::Number;
@@ -47,7 +47,7 @@ class CarriedDomain {
   /// Of the carrier's simplices.
   static constexpr int dimension = C::dimension;
 
-  /// What it is solved on.
+  /// The carrier, which it is solved on.
   [[nodiscard]] const C& carrier() const { return carrier_; }
   /// One of the carrier's a vertex; empty: they are the carrier's own.
   [[nodiscard]] std::span<const Index> carried_vertices() const { return vertices_; }
@@ -59,7 +59,7 @@ class CarriedDomain {
   [[nodiscard]] std::size_t simplex_count() const { return carrier_.simplex_count(); }
   /// As the carrier's.
   [[nodiscard]] MetricKind metric() const { return carrier_.metric(); }
-  /// What the carrier is made of.
+  /// The carrier's counts.
   [[nodiscard]] decltype(auto) summary() const { return carrier_.summary(); }
   /// Bytes held.
   [[nodiscard]] std::size_t bytes() const {

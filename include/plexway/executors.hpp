@@ -7,7 +7,7 @@ namespace plexway {
 
 class PieceRanks;
 
-/// What runs a solve.
+/// The executors: they run a solve.
 enum class ExecutorKind {
   serial,  ///< Serial
   openmp,  ///< OpenMP

@@ -60,9 +60,9 @@
 #include <plexway/shape/isolines.hpp>
 #include <plexway/shape/mask_text.hpp>
 #include <plexway/shape/pairs.hpp>
-#include <plexway/shape/remarks.hpp>
 #include <plexway/shape/scene.hpp>
 #include <plexway/shape/search.hpp>
+#include <plexway/shape/warnings.hpp>
 #include <plexway/simplicial/kuhn_grid.hpp>
 #include <plexway/solve.hpp>
 #include <plexway/surface/intrinsic_delaunay.hpp>

@@ -57,7 +57,7 @@ concept GoTogether = detail::check<support(combination<E, D>()).refusal()>();
 /// by its place in the list.
 ///
 /// Any executor, domain and sources that go together (support.hpp). What the types rule out does
-/// not compile, what only values tell throws UsageError, both with the same sentence. `workspace`
+/// not compile, what only values show throws UsageError, both with the same sentence. `workspace`
 /// is reused from call to call and belongs to one domain and one thread at a time.
 ///
 /// Sources are points, sets of vertices, balls, curves and simplices (source/source.hpp); each ball

@@ -8,14 +8,14 @@
 #include <plexway/solve/options.hpp>
 
 /// @file
-/// The table of what goes together. The sentences that say why something does not, and what domains
-/// themselves are asked, are in domain/support.hpp; what files, builds and shapes are, in
-/// shape/support.hpp.
+/// The table of supported combinations. The sentences that say why something is not, and what
+/// domains themselves are checked for, are in domain/support.hpp; what files, builds and shapes
+/// are, in shape/support.hpp.
 // Everything that can be solved, and everything that is refused and why, is decided in these three
 // and nowhere else.
 namespace plexway {
 
-/// What a field starts from, as far as it matters here (source/source.hpp).
+/// The kinds of sources, as far as they matter here (source/source.hpp).
 enum class SourceKind {
   vertex,   ///< a vertex, or a set of them; balls about one
   point,    ///< a point of a simplex; balls about one
@@ -25,16 +25,16 @@ enum class SourceKind {
 
 /// A cell of the table: what a field is to be solved on, by what, from what and how.
 struct Combination {
-  /// What runs the solve.
+  /// The executor.
   ExecutorKind executor;
-  /// What it runs on.
+  /// The domain.
   DomainKind domain;
   int dimension;  ///< of its simplices
   /// Is the domain one of float?
   bool single_precision;
   /// Where the domain's lengths come from.
   MetricKind metric = MetricKind::intrinsic;
-  /// What the field starts from.
+  /// The source.
   SourceKind source = SourceKind::vertex;
   /// As in PropagateOptions.
   Visibility visibility = Visibility::saddles;
@@ -52,11 +52,11 @@ struct Combination {
   bool in_parts = false;
 };
 
-/// A cell with what a solve's options tell.
+/// A cell with a solve's options.
 [[nodiscard]] Combination with(Combination what, const PropagateOptions& options);
 
 /// Could windows solve it (Accuracy)? Else why not. A team takes them in pieces, or has one thread
-/// do it where the order asked for is not theirs.
+/// do it where the requested order is not theirs.
 constexpr Support support_of_windows(const Combination& c) {
   if (c.domain != DomainKind::surface && c.domain != DomainKind::cloud)
     return Refusal::windows_domain;
@@ -85,16 +85,16 @@ constexpr Support support_of_accuracy(const Combination& c) {
   return c.domain == DomainKind::solid ? support_of_strings(c) : support_of_windows(c);
 }
 
-/// What `usual` comes to in this cell; whatever else is asked for as it is.
+/// What `usual` comes to in this cell; any other accuracy as it is.
 [[nodiscard]] Accuracy resolved(Accuracy accuracy, const Combination& c);
 
 /// Does it go together?
 ///
-/// What does means the same everywhere. Visibility::saddles is the best rule that a domain has, on
-/// wireframes and in SimplicialComplex the only one beside upper_bound. `radius` and an offset are
-/// in the domain's unit, nothing beyond the radius is reached. `step` counts edges as they are
-/// typical of the domain. A second source kind never makes a cell worse: a list of sources goes
-/// together if each of them does.
+/// What is supported means the same everywhere. Visibility::saddles is the best rule that a domain
+/// has, on wireframes and in SimplicialComplex the only one beside upper_bound. `radius` and an
+/// offset are in the domain's unit, nothing beyond the radius is reached. `step` counts edges as
+/// they are typical of the domain. A second source kind never makes a cell worse: a list of sources
+/// goes together if each of them does.
 constexpr Support support(const Combination& c) {
   using enum DomainKind;
   const bool gl = c.executor == ExecutorKind::gl, serial = c.executor == ExecutorKind::serial;
@@ -142,7 +142,7 @@ constexpr Support support(const Combination& c) {
 }
 
 /// The cell of an executor and a domain as types, for the kinds of sources and options that may be
-/// given. (What only an object knows, such as a solid of lengths alone, counts as it is best.)
+/// given. (What only an object knows, such as a solid of intrinsic lengths, counts as it is best.)
 template <ExecutorType E, DomainType D>
 [[nodiscard]] constexpr Combination combination(SourceKind source = SourceKind::vertex,
                                                 Visibility visibility = Visibility::saddles,
@@ -362,7 +362,7 @@ constexpr Support support(Purpose purpose, DomainKind domain,
                            .metric = domain == DomainKind::solid ? MetricKind::embedded
                                                                  : MetricKind::intrinsic});
 }
-/// The cell of a complex, with everything that it tells, by default options.
+/// The cell of a complex, with all its properties, by default options.
 template <DomainType D>
 [[nodiscard]] constexpr Combination combination_of(const D& domain, ExecutorKind executor) {
   Combination what = {.executor = executor,
@@ -392,7 +392,7 @@ template <DomainType D>
 }
 
 /// What a purpose starts from: points alone, or vertex sets, balls, curves or simplices among them.
-/// (In C++ types tell; programs that take any source ask.)
+/// (In C++ the types decide; programs that take any source call it.)
 constexpr Support support_of_sources(Purpose purpose, bool only_points) {
   const bool by_points = purpose == Purpose::paths || purpose == Purpose::read_out ||
                          purpose == Purpose::directions || purpose == Purpose::searches ||

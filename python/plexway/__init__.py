@@ -9,7 +9,7 @@ One line, from NumPy arrays:
 >>> plexway.distance(V, F, 0)
 array([0., 4., 5., 3.], dtype=float32)
 
-A domain that is asked more than once is kept:
+A domain that is used more than once is kept:
 
 >>> sheet = plexway.Surface(V, F)
 >>> sheet

@@ -1,4 +1,4 @@
-"""What all domains can be asked."""
+"""What all domains have in common: distances, paths, matrices, samples, pictures."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ _CLASSES: Dict[str, Type["Domain"]] = {}
 
 
 class Domain:
-    """A space that distances are asked on: base of `Surface`, `Solid`, `Wireframe`, `Cloud`,
+    """A space with distances: the base of `Surface`, `Solid`, `Wireframe`, `Cloud`,
     `Mixed` and `Simplicial`.
 
     Domains do not change, may be used by any number of threads at once, and can be pickled.
@@ -107,13 +107,13 @@ class Domain:
 
     @property
     def components(self) -> int:
-        """Parts that no path connects."""
+        """The number of parts that no path connects."""
         count: int = self._native.components
         return count
 
     @property
     def dtype(self) -> np.dtype[Any]:
-        """Of its distances: float32, or float64 with precision='double'."""
+        """The type of its distances: float32, or float64 with precision='double'."""
         return np.dtype(np.float64 if self._native.double else np.float32)
 
     @property
@@ -125,7 +125,7 @@ class Domain:
         return found
 
     def info(self) -> Dict[str, Any]:
-        """What it is made of.
+        """Counts, sizes and how it was built.
 
         Returns
         -------
@@ -219,8 +219,8 @@ class Domain:
         Returns
         -------
         ndarray, shape (n,)
-            float32, or float64 from a domain of precision 'double' or a source that needs it
-            (lines and triangles of surfaces). ``inf`` at vertices that are not reached.
+            float32, or float64 from a domain of precision 'double' and where 'exact', or lines and
+            triangles with 'fast', need it. ``inf`` at vertices that are not reached.
 
         Notes
         -----
@@ -548,7 +548,7 @@ class Domain:
         visibility: str = "saddles",
         progress: ProgressLike = None,
     ) -> Field:
-        """A distance field that is kept, to ask it for ways and for the distance of any point.
+        """A distance field that is kept: it traces paths, and evaluates the distance of any point.
 
         Parameters
         ----------
@@ -569,8 +569,8 @@ class Domain:
         return Field(self, native)
 
     def path(self, source: Any, target: Place, *, margin: Optional[float] = None) -> Path:
-        """The shortest way from `target` to the nearest source. For several ways to one source keep
-        a `field`.
+        """The shortest path from `target` to the nearest source. For several paths to one source
+        keep a `field`.
 
         Parameters
         ----------
@@ -814,7 +814,7 @@ class Domain:
         title : str
             Over the colour bar.
         cut : bool
-            Cut the half away that is nearer to the camera.
+            Cut it through the middle, across x; the half nearer to the camera goes.
 
         Returns
         -------

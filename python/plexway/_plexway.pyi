@@ -6,13 +6,28 @@ from ._arrays import Array
 
 __version__: str
 
-class Error(Exception): ...
-class InputError(Error, ValueError): ...
-class PrecisionError(InputError): ...
-class UsageError(Error, ValueError): ...
-class NotBuilt(Error, RuntimeError): ...
-class EndlessError(Error, ArithmeticError): ...
-class Cancelled(Error): ...
+class Error(Exception):
+    """Base of all errors of plexway; the text is one line that says what to do."""
+
+class InputError(Error, ValueError):
+    """A file or an array is not what it must be."""
+
+class PrecisionError(InputError):
+    """Sizes that single precision cannot hold beside each other: build the domain with
+    precision='double'."""
+
+class UsageError(Error, ValueError):
+    """A call asks for something that makes no sense."""
+
+class NotBuilt(Error, RuntimeError):
+    """The feature exists, but not in this build or here."""
+
+class EndlessError(Error, ArithmeticError):
+    """A solve that does not end, because lengths are no metric, was stopped."""
+
+class Cancelled(Error):
+    """A progress function returned False."""
+
 
 _Report = Optional[Callable[[float], Any]]
 _Path = Tuple[Optional[Array], Array, Array, float, int]

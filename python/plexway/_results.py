@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Path:
-    """A way from a point back to the nearest source, straight in each simplex. Empty, with a length
-    of ``inf``, where no way leads.
+    """A path from a point back to the nearest source, straight in each simplex. It is empty, with a
+    length of ``inf``, where none exists.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class Path:
     length : float
         Summed over the straight lines, in the unit of the domain.
     source : int
-        The place of the source in the list of sources; -1 if no way leads.
+        The place of the source in the list of sources; -1 if there is no path.
     """
 
     points: Optional[Array]
@@ -50,7 +50,7 @@ class Path:
 
     def __repr__(self) -> str:
         if not len(self):
-            return "plexway.Path(no way leads there)"
+            return "plexway.Path(unreachable)"
         return f"plexway.Path({_counted(len(self), 'point')}, length {self.length:.6g})"
 
 
@@ -205,9 +205,9 @@ class Isosurfaces:
 
 
 class Field:
-    """A distance field that is kept: it can tell ways, and the distance of any point.
+    """A distance field that is kept: it traces paths, and evaluates the distance of any point.
 
-    Made by `Domain.field`. Any number of threads may ask at once.
+    Made by `Domain.field`. Any number of threads may use it at once.
     """
 
     def __init__(self, domain: Domain, native: Any) -> None:
@@ -234,7 +234,7 @@ class Field:
         return found
 
     def path(self, start: Place, *, margin: Optional[float] = None) -> Path:
-        """The shortest way from `start` back to the nearest source.
+        """The shortest path from `start` back to the nearest source.
 
         Parameters
         ----------
@@ -260,7 +260,7 @@ class Field:
         points : array_like, shape (k, 3), or a list of places
             Points in space (the closest of the domain are taken), vertices, `Point`.
         level : {'neighbours', 'linear', 'simplex', 'star'}
-            Who is asked: 'linear' interpolates between the corners, the others ask virtual sources.
+            'linear' interpolates between the corners, the others evaluate virtual sources.
 
         Returns
         -------

@@ -111,7 +111,7 @@ class Polyline(Source):
 
 @dataclass(frozen=True, eq=False)
 class Segment(Source):
-    """The shortest way from `start` to `end`, all of it; see `Polyline`.
+    """The shortest path from `start` to `end`, all of it; see `Polyline`.
 
     Parameters
     ----------

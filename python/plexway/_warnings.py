@@ -24,8 +24,8 @@ def _is_own(frame: FrameType) -> bool:
     return name == "plexway" or name.startswith("plexway.")
 
 
-# What was said of fields of a domain, by its words behind all figures, and at which line: a loop over
-# sources says it once.
+# The warnings about fields of a domain that were given, by their text without figures and by line: a loop
+# over sources warns once.
 _said: "WeakKeyDictionary[object, Set[Tuple[str, str, int]]]" = WeakKeyDictionary()
 _lock = Lock()
 

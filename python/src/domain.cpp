@@ -66,25 +66,25 @@ std::vector<PointSource> Domain::outside(std::vector<PointSource> points) const 
 namespace {
 
 template <class Wanted>
-py::tuple texts(const std::vector<Remark>& remarks, const Wanted& wanted) {
+py::tuple texts(const std::vector<Warning>& warnings, const Wanted& wanted) {
   py::list found;
-  for (const Remark& remark : remarks)
-    if (wanted(remark)) found.append(remark.text);
+  for (const Warning& warning : warnings)
+    if (wanted(warning)) found.append(warning.text);
   return py::tuple(found);
 }
 
-std::vector<Remark> told_of(const Domain& domain) {
+std::vector<Warning> told_of(const Domain& domain) {
   const py::gil_scoped_release free;
-  return domain_remarks(domain.any(), Reader::python);
+  return domain_warnings(domain.any(), Reader::python);
 }
 
 }  // namespace
 
-py::tuple texts_of(const std::vector<Remark>& remarks) {
-  return texts(remarks, [](const Remark&) { return true; });
+py::tuple texts_of(const std::vector<Warning>& warnings) {
+  return texts(warnings, [](const Warning&) { return true; });
 }
-py::tuple doubts_of(const std::vector<Remark>& remarks) {
-  return texts(remarks, [](const Remark& remark) { return remark.doubtful; });
+py::tuple doubts_of(const std::vector<Warning>& warnings) {
+  return texts(warnings, [](const Warning& warning) { return warning.doubtful; });
 }
 
 std::size_t Domain::bytes() const {

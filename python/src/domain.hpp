@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <plexway/any_domain.hpp>
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 
 #include "watch.hpp"
 
@@ -72,9 +72,9 @@ class Sources {
 };
 
 ///@{
-/// Texts of remarks, and of those alone that say distances may be wrong: what Python warns of.
-[[nodiscard]] pybind11::tuple texts_of(const std::vector<Remark>& remarks);
-[[nodiscard]] pybind11::tuple doubts_of(const std::vector<Remark>& remarks);
+/// Texts of warnings, and of those alone that say distances may be wrong: what Python warns of.
+[[nodiscard]] pybind11::tuple texts_of(const std::vector<Warning>& warnings);
+[[nodiscard]] pybind11::tuple doubts_of(const std::vector<Warning>& warnings);
 ///@}
 
 void bind_sources(pybind11::module_& module);

@@ -43,8 +43,7 @@ void bind_exceptions(py::module_& module) {
   e.not_built = make(module, "NotBuilt", "The feature exists, but not in this build or here.",
                      of(e.error, PyExc_RuntimeError));
   e.endless = make(module, "EndlessError",
-                   "A propagation that improved labels long past any use, and was stopped: its "
-                   "lengths are no metric.",
+                   "A solve that does not end, because lengths are no metric, was stopped.",
                    of(e.error, PyExc_ArithmeticError));
   e.cancelled = make(module, "Cancelled", "A progress function returned False.", of(e.error));
 

@@ -41,8 +41,8 @@ struct Matrix {
     };
     any = &domain.for_sources(executor, sources.list(), request.solve);
   }
-  [[nodiscard]] std::vector<Remark> remarks(const PairsReport& report) const {
-    return rows_remarks(*any, report.statistics, arguments.accuracy, report.rows, Reader::python);
+  [[nodiscard]] std::vector<Warning> warnings(const PairsReport& report) const {
+    return rows_warnings(*any, report.statistics, arguments.accuracy, report.rows, Reader::python);
   }
 
   Matrix(const Matrix&) = delete;
@@ -85,7 +85,7 @@ py::tuple near(const Domain& domain, std::vector<Source> given, const py::object
     row = {};
   }
   return py::make_tuple(owned(std::move(data)), owned(std::move(indices)), owned(std::move(starts)),
-                        doubts_of(matrix.remarks(report)));
+                        doubts_of(matrix.warnings(report)));
 }
 
 // All that the file depends on.
@@ -165,7 +165,7 @@ py::tuple pairs_file(const Domain& domain, std::vector<Source> given, const py::
       throw;
     }
   });
-  return doubts_of(matrix.remarks(report));
+  return doubts_of(matrix.warnings(report));
 }
 
 }  // namespace

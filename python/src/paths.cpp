@@ -41,15 +41,15 @@ ReadOut level_of(const std::string& name) {
 struct Field {
   std::shared_ptr<const Domain> domain;
   AnyPathField any;
-  const AnyDomain* on;       // which of the domain's
-  std::vector<Remark> told;  // what holds for the field alone
-  PropagateOptions bounds;   // radius alone
+  const AnyDomain* on;        // which of the domain's
+  std::vector<Warning> told;  // what holds for the field alone
+  PropagateOptions bounds;    // radius alone
 };
 
-std::vector<Remark> remarks(const Field& field) {
+std::vector<Warning> warnings(const Field& field) {
   const py::gil_scoped_release free;
-  std::vector<Remark> all = domain_remarks(*field.on, Reader::python);
-  const auto reach = reach_remarks(*field.on, field.any.field(), field.bounds, Reader::python);
+  std::vector<Warning> all = domain_warnings(*field.on, Reader::python);
+  const auto reach = reach_warnings(*field.on, field.any.field(), field.bounds, Reader::python);
   for (const auto* some : {&field.told, &reach}) all.insert(all.end(), some->begin(), some->end());
   return all;
 }
@@ -63,7 +63,7 @@ std::shared_ptr<Field> path_field(const std::shared_ptr<Domain>& domain, std::ve
   return watch.run([&] {
     const AnyDomain& any = domain->for_sources(executor, sources.list(), options);
     AnyPathField field = any.path_field(executor, sources.points(Purpose::paths), options);
-    std::vector<Remark> told = field_remarks(any, field.field(), sources.list(), Reader::python);
+    std::vector<Warning> told = field_warnings(any, field.field(), sources.list(), Reader::python);
     PropagateOptions bounds;
     bounds.radius = options.radius;
     return std::make_shared<Field>(
@@ -114,7 +114,7 @@ py::tuple isosurfaces(const Domain& domain, const py::object& distance, const py
 void bind_paths(py::module_& module) {
   py::class_<Field, std::shared_ptr<Field>>(module, "Field")
       .def_property_readonly("distance", &distance)
-      .def_property_readonly("notes", [](const Field& f) { return texts_of(remarks(f)); })
+      .def_property_readonly("notes", [](const Field& f) { return texts_of(warnings(f)); })
       .def_property_readonly("doubts", [](const Field& f) { return doubts_of(f.told); })
       .def_property_readonly("bytes", [](const Field& f) { return f.any.bytes(); })
       .def("label", [](const Field& f) { return owned(f.any.field().file_label()); })

@@ -64,12 +64,12 @@ py::tuple solve(const Domain& domain, std::vector<Source> given, const SolveArgu
   const AnyExecutor executor = executor_of(arguments);
   Watch watch(std::move(progress));
   const PropagateOptions options = options_of(arguments, watch);
-  std::vector<Remark> told;
+  std::vector<Warning> told;
   AnyField field = watch.run([&] {
     const SourceList list = sources.list();
     const AnyDomain& any = domain.for_sources(executor, list, options);
     AnyField solved = any.solve(executor, list, options);
-    told = field_remarks(any, solved, list, Reader::python);
+    told = field_warnings(any, solved, list, Reader::python);
     return solved;
   });
   py::object label = py::none();
@@ -92,7 +92,7 @@ py::tuple each(const Domain& domain, const Sources& sources, const AnyExecutor& 
   const double count = static_cast<double>(list.size());
   std::atomic<std::size_t> done{0};
   std::size_t doubtful = 0, first = sources.list().size();
-  std::vector<Remark> told;  // of the first
+  std::vector<Warning> told;  // of the first
   PropagateOptions options = options_of(arguments, watch);
   // The share that counts is that of the rows.
   options.progress = [&](const Progress&) {
@@ -109,7 +109,7 @@ py::tuple each(const Domain& domain, const Sources& sources, const AnyExecutor& 
                   static_cast<Real>(f.distance[columns != nullptr ? (*columns)[c] : c]);
           },
           field.data);
-      std::vector<Remark> own = field_remarks(any, field, list.only(k), Reader::python);
+      std::vector<Warning> own = field_warnings(any, field, list.only(k), Reader::python);
       doubtful += !own.empty();
       if (!own.empty() && k < first) {
         first = k;

@@ -50,8 +50,8 @@ void take_ball(const SourceParts::Ball& ball, const DistanceField<Real>& alone, 
   field.statistics.expansions += alone.statistics.expansions;
   field.statistics.updates += alone.statistics.updates;
   field.statistics.supersteps += alone.statistics.supersteps;
-  field.statistics.letters += alone.statistics.letters;
-  field.statistics.letter_bytes += alone.statistics.letter_bytes;
+  field.statistics.messages += alone.statistics.messages;
+  field.statistics.message_bytes += alone.statistics.message_bytes;
   field.statistics.sent_bytes += alone.statistics.sent_bytes;
   field.statistics.reached_simplices =
       std::max(field.statistics.reached_simplices, alone.statistics.reached_simplices);

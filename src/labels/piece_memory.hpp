@@ -20,7 +20,7 @@ class TrianglePatches;
 struct SuperstepCounts {
   std::size_t supersteps = 0;
   std::size_t runs = 0;     ///< of a piece in a superstep
-  std::size_t letters = 0;  ///< labels told to other pieces
+  std::size_t letters = 0;  ///< labels sent to other pieces
   std::size_t bytes = 0;    ///< of letters
   std::size_t sent = 0;     ///< bytes from this process to others
   /// A piece in a superstep: how many letters it posted to which others.
@@ -38,8 +38,8 @@ struct SuperstepCounts {
   /// Adds what a solve did.
   void tell(PropagateStatistics& statistics) const {
     statistics.supersteps += supersteps;
-    statistics.letters += letters;
-    statistics.letter_bytes += bytes;
+    statistics.messages += letters;
+    statistics.message_bytes += bytes;
     statistics.sent_bytes += sent;
   }
   /// Before a solve.

@@ -197,7 +197,7 @@ PathSearch<Real>::PathSearch(const TriangleMesh<Real>& mesh,
     if (stretch < least) least = stretch, worst = t.face & ~reversed;
   }
   if (scale > least * (1 + rounding))
-    throw UsageError("the straight line is no lower bound: ways in face " + std::to_string(worst) +
+    throw UsageError("the straight line is no lower bound: paths in face " + std::to_string(worst) +
                      " are shorter than between its positions; a scale of at most " +
                      std::to_string(std::floor(least * (1 + 1e-6) * 1e6) * 1e-6) + " would do");
   s.scale = scale * (1 - rounding);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 
 namespace plexway {
 
-/// What remarks advise, and how each reader asks for it: `X(name, people, tool, python)`.
+/// What warnings advise, and how each reader asks for it: `X(name, people, tool, python)`.
 #define PLEXWAY_SPELLINGS(X)                                                                     \
   X(fast, "the accuracy fast", "--accuracy fast", "accuracy='fast'")                             \
   X(accurate, "the accuracy accurate", "--accuracy accurate", "accuracy='accurate'")             \

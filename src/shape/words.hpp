@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include <plexway/shape/cloud_shape.hpp>
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 
 namespace plexway {
 

@@ -54,6 +54,15 @@ std::string version_text() {
          licence + "\n";
 }
 
+std::string exit_codes_in_short() {
+  std::string text;
+  for (const ExitCodeMeaning& one : exit_codes)
+    text.append(text.empty() ? "Exit codes: " : ", ")
+        .append(std::to_string(one.code) + " ")
+        .append(one.brief);
+  return text + ".";
+}
+
 // The command that was being parsed when something went wrong.
 const CLI::App& innermost(const CLI::App& tool) {
   const auto chosen = tool.get_subcommands();
@@ -115,9 +124,8 @@ void parse_and_run(int argc, const char* const* argv, const Among* among) {
       "  plexway info knot.ply\n"
       "  plexway tetrahedralize organ.off --out organ.vtu --max-volume 1e-3\n"
       "  plexway convert broken.stl clean.ply --repair\n"
-      "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n\n"
-      "Exit codes: 0 ok, 1 failure, 2 usage, 3 bad input, 4 not built in, 5 nothing reached, "
-      "6 without end.");
+      "  plexway bench bunny.obj --source vertex:3160 --truth bunny.v3160.txt\n\n" +
+      exit_codes_in_short());
   add_distance_command(tool, action, among);
   add_info_command(tool, action);
   add_bench_command(tool, action);

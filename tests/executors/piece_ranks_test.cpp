@@ -40,8 +40,8 @@ OpenMP among(OpenMP executor, PieceRanks& ranks) {
 template <class Real>
 bool same_counts(const DistanceField<Real>& a, const DistanceField<Real>& b) {
   return a.statistics.supersteps == b.statistics.supersteps &&
-         a.statistics.letters == b.statistics.letters &&
-         a.statistics.letter_bytes == b.statistics.letter_bytes;
+         a.statistics.messages == b.statistics.messages &&
+         a.statistics.message_bytes == b.statistics.message_bytes;
 }
 
 /// Does every rank get what one process gets, also in a second solve with the same memory?

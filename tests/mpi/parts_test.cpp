@@ -111,7 +111,7 @@ TEST_CASE("ranks solve a surface in parts as one process solves the whole") {
       CHECK(json["vertices"] == known.size());
       CHECK(json["reached"] == known.size() - 1);
       CHECK(json["pieces"] > 1);
-      CHECK(json["letters"] > 100);
+      CHECK(json["messages"] > 100);
       CHECK((json["sent_bytes"] > 0) == (ranks > 1));
       REQUIRE(json["peak_bytes"].size() == static_cast<std::size_t>(ranks));
       const Parts parts(out, ranks, known.size());

@@ -104,7 +104,7 @@ TEST_CASE("ranks solve one field, bit for bit what threads solve") {
     REQUIRE(threads.code == 0);
     const auto expected = threads.json();
     CHECK(expected["supersteps"] > 3);
-    CHECK(expected["letters"] > 100);
+    CHECK(expected["messages"] > 100);
     for (const auto& [count, each] : crews) {
       CAPTURE(input, count, each);
       const Outcome run =
@@ -116,7 +116,7 @@ TEST_CASE("ranks solve one field, bit for bit what threads solve") {
       const auto json = run.json();
       CHECK(json["ranks"] == count);
       CHECK(json["threads"] == each);
-      for (const char* const key : {"supersteps", "letters", "letter_bytes", "expansions",
+      for (const char* const key : {"supersteps", "messages", "message_bytes", "expansions",
                                     "updates", "reached", "max_distance", "lowered_vertices"})
         if (expected.contains(key)) CHECK(json[key] == expected[key]);
       CHECK((json["sent_bytes"] > 0) == (count > 1));

@@ -71,7 +71,7 @@ TEST_CASE("files of a matrix have the rows of solve, and what those come to") {
   const PairFilesReport report = write_pair_files(Serial{}, domain, files, progress);
   CHECK(report.solved.rows == n);
   CHECK(told == n);
-  CHECK(std::count(stages.begin(), stages.end(), "comparing the two ways") == 1);
+  CHECK(std::count(stages.begin(), stages.end(), "comparing there and back") == 1);
 
   const AnyDomain built(domain, files.building);
   const std::vector<double> matrix = numbers_in(files.matrix);

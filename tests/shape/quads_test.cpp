@@ -6,7 +6,7 @@
 
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 
 // Quads of a surface that were handed over as tetrahedra.
 namespace plexway::testing::quads_test {
@@ -40,8 +40,8 @@ TEST_CASE("tetrahedra that share no face but edges are doubted") {
   auto [at, quads] = strip(6, .2);
   for (std::size_t i = 1; i < at.size(); i += 2) at[i][2] += .1 * (i % 4 == 1);
   const auto doubted = [](const AnyDomain& domain) {
-    for (const Remark& remark : domain_remarks(domain))
-      if (remark.doubtful && remark.text.find("quads") != std::string::npos) return true;
+    for (const Warning& warning : domain_warnings(domain))
+      if (warning.doubtful && warning.text.find("quads") != std::string::npos) return true;
     return false;
   };
   CHECK(doubted(AnyDomain(AnyShape::solid(at, quads))));

@@ -15,6 +15,12 @@ function(plexway_tutorial name)
   set_tests_properties("tutorials/${name}" PROPERTIES LABELS tool TIMEOUT 600)
 endfunction()
 
+# Pages that are made from the program say what it says.
+add_test(NAME "reference/pages"
+  COMMAND "${PLEXWAY_TUTORIAL_PYTHON}" "${PROJECT_SOURCE_DIR}/docs/reference/make.py"
+    "$<TARGET_FILE:plexway_tool>" --check)
+set_tests_properties("reference/pages" PROPERTIES LABELS cli)
+
 plexway_tutorial(first-distance)
 plexway_tutorial(solid)
 if(TARGET plexway_flann)

@@ -24,7 +24,7 @@
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 #include <plexway/executors.hpp>
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 #include <plexway/version.hpp>
 
 #include "drawing.hpp"
@@ -94,9 +94,9 @@ int answered(const Body& body) {
   }
 }
 
-std::vector<std::string> texts_of(const std::vector<Remark>& remarks) {
+std::vector<std::string> texts_of(const std::vector<Warning>& warnings) {
   std::vector<std::string> texts;
-  for (const Remark& remark : remarks) texts.push_back(remark.text);
+  for (const Warning& warning : warnings) texts.push_back(warning.text);
   return texts;
 }
 
@@ -165,7 +165,7 @@ PLEXWAY_PAGE_CALLS int plexway_open(const char* file, const char* as, int twice)
     line.add("buildMs", build);
     line.add("bytes", now.domain->bytes());
     line.add("note", opened.level_set_note());
-    line.add("notes", texts_of(domain_remarks(*now.domain)));
+    line.add("notes", texts_of(domain_warnings(*now.domain)));
     line.add("centre", now.drawing.centre());
     line.add("size", now.drawing.size());
     return line.text();
@@ -255,7 +255,7 @@ PLEXWAY_PAGE_CALLS int plexway_solve(const char* accuracy) {
     line.add("solveMs", solve);
     line.add("farthest", farthest);
     line.add("unreached", unreached);
-    line.add("notes", texts_of(field_remarks(domain, now.field, now.sources)));
+    line.add("notes", texts_of(field_warnings(domain, now.field, now.sources)));
     return line.text();
   });
 }

@@ -30,7 +30,7 @@ void check(const Neighbours& neighbours);
 
 /// Every pair from both its ends: where a has b, b has a. A row keeps its order; who has the point
 /// but not the other way around follows behind, by number. Without the points' places that is the
-/// best that can be said; the overload below puts rows in order. Throws as `check`. Cost: linear.
+/// best order there is; the overload below puts rows in order. Throws as `check`. Cost: linear.
 [[nodiscard]] Neighbours symmetric_closure(const Neighbours& neighbours);
 
 /// The same, and every row nearest first, the lower number first of two equally near. Throws

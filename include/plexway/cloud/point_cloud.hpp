@@ -30,7 +30,7 @@ struct CloudOptions {
   /// between them is steeper than half of it: so sheets across a thin gap stay apart.
   double max_normal_angle = 60;
   /// One a point, of any length, pointing outward everywhere; a zero or NaN stands for unknown.
-  /// Empty: estimated, and then inside and outside are not told apart.
+  /// Empty: estimated, and then inside and outside are not distinguished.
   std::span<const std::array<double, 3>> normals = {};
   /// How long the sheet's edges are.
   EdgeLengths lengths = EdgeLengths::automatic;
@@ -43,7 +43,7 @@ struct CloudOptions {
   std::function<bool(double share)> progress = {};
 };
 
-/// What a cloud is made of, counted while it is built.
+/// The counts of a cloud, made while it is built.
 struct CloudSummary {
   /// As given.
   std::size_t points = 0;
@@ -61,8 +61,8 @@ struct CloudSummary {
   /// near a crease with another side close by.
   std::size_t torn_points = 0;
   Index first_torn = none;  ///< the lowest of these points
-  /// Places with edges from one side of a sharp ridge to the other that are well short of the way
-  /// over it, or that noise puts off their side's plane: where the ridge is is not told.
+  /// Places with edges from one side of a sharp ridge to the other that are well short of the path
+  /// over it, or that noise puts off their side's plane: the place of the ridge is unknown.
   std::size_t chord_points = 0;
   Index first_chord = none;                  ///< the lowest of these points
   std::size_t isolated_points = 0;           ///< places that are connected to no other
@@ -107,7 +107,7 @@ class PointCloud {
   [[nodiscard]] std::size_t simplex_count() const { return surface_.face_count(); }
   /// Intrinsic: the lengths of the sheet's edges are all that counts.
   [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
-  /// What it is made of, counted while it was built.
+  /// Its counts, made while it was built.
   [[nodiscard]] const CloudSummary& summary() const { return summary_; }
   /// Bytes this complex holds.
   [[nodiscard]] std::size_t bytes() const;

@@ -5,8 +5,8 @@
 
 namespace plexway {
 
-/// How many threads are meant: as asked, or for 0 as many as the machine has.
-[[nodiscard]] int threads_for(int asked);
+/// The number of threads: as requested, or for 0 as many as the machine has.
+[[nodiscard]] int threads_for(int requested);
 
 /// Calls work(first, last) for all blocks of `block` numbers below `count`, on `threads` threads
 /// (0: as many as the machine has). Which thread does which block is left to chance, so that work

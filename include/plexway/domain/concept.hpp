@@ -8,7 +8,7 @@
 
 namespace plexway {
 
-/// What kind of space a domain is.
+/// The kinds of domains.
 enum class DomainKind {
   surface,    ///< TriangleMesh
   solid,      ///< TetMesh
@@ -21,7 +21,7 @@ enum class DomainKind {
 /// Where a domain's lengths come from.
 enum class MetricKind {
   embedded,    ///< coordinates in space, which rules may use
-  intrinsic,   ///< the lengths of edges, and nothing else is asked for
+  intrinsic,   ///< the lengths of edges, and nothing else
   refracting,  ///< the same, but some edges are of another length on either side
 };
 

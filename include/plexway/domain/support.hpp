@@ -4,9 +4,9 @@
 #include <plexway/error.hpp>
 
 /// @file
-/// Why something does not go together, and what domains themselves are asked.
-// The lowest part of the one table of what goes with what; support.hpp and shape/support.hpp are
-// the others.
+/// Why a combination is not supported, and what domains themselves are checked for.
+// The lowest part of the one table of what goes with what; support.hpp and shape/support.hpp are the
+// others.
 namespace plexway {
 
 /// Why not, each in one sentence that says what to do instead. `X(name, sentence)`.
@@ -185,7 +185,7 @@ namespace plexway {
   X(in_parts_whole,                                                                                \
     "this takes the whole, which in parts no process has: leave it out, or let each have all")     \
   X(kept_metric,                                                                                   \
-    "a domain measured by a metric cannot be kept: its shape does not tell the lengths")           \
+    "a domain measured by a metric cannot be kept: its shape does not have the lengths")           \
   X(kept_mask, "a domain with a mask cannot be kept: keep it without, and mask it then")           \
   X(taken_as,                                                                                      \
     "a surface is taken as a solid, a wireframe or a cloud, a solid as a wireframe, a level set "  \
@@ -254,7 +254,7 @@ constexpr Support support_of_piece(DomainKind domain, MetricKind metric) {
   return Support();
 }
 
-/// May simplices of a domain measure an edge that they share in ways of their own (metric::Sides)?
+/// May simplices of a domain measure an edge that they share each for itself (metric::Sides)?
 constexpr Support support_of_own_sides(DomainKind domain) {
   return domain == DomainKind::solid ? Refusal::sides_solid : Refusal::nothing;
 }

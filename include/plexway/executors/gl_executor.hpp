@@ -30,7 +30,7 @@ class GLWorkspace;
 struct GL {
   /// Its rows in the table of support.hpp.
   static constexpr ExecutorKind kind = ExecutorKind::gl;
-  /// What it keeps from call to call.
+  /// Its state from call to call.
   using Workspace = GLWorkspace;
 
   /// Its number in gl_devices(); -1: the first that is not software, or the first.
@@ -41,12 +41,12 @@ struct GL {
   std::size_t batch_bytes = std::size_t{1} << 30;
 };
 
-/// What EGL offers on this machine.
+/// The devices that EGL offers on this machine.
 struct GLDevice {
   /// For GL::device.
   int number = 0;
   ///@{
-  /// As OpenGL's driver says.
+  /// As OpenGL's driver reports it.
   std::string vendor, renderer, version;
   ///@}
   bool software = false;           ///< computes on the processor

@@ -25,7 +25,7 @@ struct SurfaceFilePart {
   std::string ids_name;  ///< of the array that `ids` are from, for messages
 };
 
-/// What became of the points of parts, of all processes.
+/// How the points of parts were joined, over all processes.
 struct JoinedCounts {
   bool by_ids = false;       ///< else points are one by where they lie
   std::uint64_t parts = 0;   ///< that have triangles
@@ -54,7 +54,7 @@ class JoinedRows final : public SurfaceRows {
 
   [[nodiscard]] std::size_t vertex_count() const override { return vertices_; }
   [[nodiscard]] std::size_t face_count() const override { return faces_; }
-  /// What became of the points, the same in all processes.
+  /// How the points were joined, the same in all processes.
   [[nodiscard]] const JoinedCounts& joined() const { return joined_; }
   /// Of this process's range.
   void read_vertices(std::size_t first, std::span<std::array<double, 3>> positions) const override;

@@ -12,12 +12,12 @@ namespace plexway {
 /// Processes that solve one field together, such as the ranks of MPI (mpi/ranks.hpp).
 ///
 /// Each has the whole domain and calls the same solve with an executor that names them
-/// (OpenMP::ranks); each runs its own pieces, hears by letters of those of the others, and gets the
-/// whole field. All of them must call everything here, in the same order. One that throws must end
-/// the others, which wait for it.
+/// (OpenMP::ranks); each runs its own pieces, hears of those of the others by messages, and gets
+/// the whole field. All of them must call everything here, in the same order. One that throws must
+/// end the others, which wait for it.
 class PieceRanks {
  public:
-  /// What goes from one to another.
+  /// The messages from one to another.
   using Bytes = std::span<const std::byte>;
 
   virtual ~PieceRanks() = default;

@@ -33,7 +33,7 @@ class SurfaceRows {
   virtual void read_faces(std::size_t first, std::span<std::array<Index, 3>> corners) const = 0;
 };
 
-/// What a surface in parts is made of.
+/// The counts of a surface in parts.
 struct SurfacePartsSummary {
   ///@{
   /// Of the whole surface.
@@ -55,7 +55,7 @@ struct SurfacePartsSummary {
 /// A point of a surface in parts.
 struct PartPoint {
   PointSource source;   ///< by the surface's numbers
-  double distance = 0;  ///< from the point that was asked for, in the input's unit
+  double distance = 0;  ///< from the given point, in the input's unit
 };
 
 /// What a process has of a surface, as it was read: the triangles of its pieces and their vertices,
@@ -107,10 +107,10 @@ class SurfaceParts {
   SurfaceParts(SurfaceParts&&) noexcept;             ///< Leaves nothing that may be used.
   SurfaceParts& operator=(SurfaceParts&&) noexcept;  ///< Leaves nothing that may be used.
 
-  /// What it is made of.
+  /// Its counts.
   [[nodiscard]] const SurfacePartsSummary& summary() const;
   /// The nearest point of the surface: a vertex where rounding makes no difference, as AnyShape
-  /// does; of several, which rounding does not tell apart, that of the lowest face. Throws
+  /// does; of several, which rounding does not distinguish, that of the lowest face. Throws
   /// UsageError for coordinates that are not finite. Cost: two looks at each triangle.
   [[nodiscard]] PartPoint nearest(const std::array<double, 3>& point) const;
   /// The distance of every vertex of this part from the nearest of `sources`, which have the
@@ -119,7 +119,7 @@ class SurfaceParts {
   /// (`fast`; statistics.windows_gave_up).
   [[nodiscard]] PartField<Real> solve(std::span<const PointSource> sources,
                                       const PropagateOptions& options = {});
-  /// What this process has. Reads positions anew.
+  /// The part of this process. Reads positions anew.
   [[nodiscard]] SurfacePart part(const SurfaceRows& rows) const;
   /// Bytes held.
   [[nodiscard]] std::size_t bytes() const;

@@ -34,7 +34,7 @@ struct FineField {
 };
 
 /// Cuts each edge into as many parts, 1 to 16, as it takes for a smooth field to be linear between
-/// them. At a crease, where shortest ways from two sides meet, 16 may be too few, and then the
+/// them. At a crease, where shortest paths from two sides meet, 16 may be too few, and then the
 /// tolerance does not hold there. Faces with a corner twice are left out.
 ///
 /// Throws UsageError for counts that do not fit, a face of a vertex that is not there, or a

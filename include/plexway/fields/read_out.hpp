@@ -2,8 +2,8 @@
 
 namespace plexway {
 
-/// Who is asked for the distance of a point inside a simplex. Each level asks those before it, too,
-/// but `linear`.
+/// What the distance of a point inside a simplex is computed from. Each level takes the least of
+/// its own values and those of the levels before it, but `linear`.
 enum class ReadOut {
   linear,      ///< the distances of the corners, interpolated
   simplex,     ///< the simplex's own virtual source

@@ -25,7 +25,7 @@ struct TuningSurface {
   /// The exact field of one source.
   struct Truth {
     Index source;                  ///< a vertex
-    std::vector<double> distance;  ///< one a vertex; NaN where not known, +inf where no path leads
+    std::vector<double> distance;  ///< one a vertex; NaN where not known, +inf where unreachable
   };
   /// At least one.
   std::vector<Truth> truths;
@@ -74,7 +74,7 @@ class TuningSet {
 /// And back. Throws UsageError unless there are nine.
 [[nodiscard]] ProbeTable probe_table_of(std::span<const double> values);
 
-/// Those of the thresholds that say which vertices are saddles.
+/// The thresholds that decide which vertices are saddles.
 [[nodiscard]] std::vector<EvolvedParameter> saddle_parameters();
 /// Thresholds as those five numbers.
 [[nodiscard]] std::vector<double> values_of(const SaddleThresholds& thresholds);

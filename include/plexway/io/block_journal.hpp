@@ -32,7 +32,7 @@ class Fingerprint {
   std::uint64_t value_ = 0xcbf29ce484222325U;
 };
 
-/// What is beside an output that takes long: which blocks of it are finished, OUT.journal.
+/// The file OUT.journal beside an output that takes long: it lists the blocks that are finished.
 ///
 /// A run that is killed, or ends by an error, leaves it there with what is finished; the next run
 /// of the same description goes on from that. One run at a time: it is locked (flock).
@@ -95,7 +95,7 @@ class BlockJournal {
   /// The output is in its place: the journal goes.
   void remove();
 
-  /// What the journal of an output is called.
+  /// The name of the journal of an output.
   [[nodiscard]] static std::filesystem::path path_of(const std::filesystem::path& out);
 
  private:

@@ -8,13 +8,13 @@
 
 namespace plexway::io {
 
-/// What a reader did besides taking what a file has.
+/// What a reader cut, dropped, passed over or repaired.
 struct FileReport {
   std::size_t split_polygons = 0;  ///< of more than three corners, cut into triangles
   std::size_t split_cells = 0;     ///< hexahedra, prisms and pyramids, cut into tetrahedra
   /// Cells that have no place in a domain of what has most dimensions: "triangles", and how many.
   std::vector<std::pair<std::string, std::size_t>> passed_over = {};
-  /// What was guessed or mended: sentences without the file's name.
+  /// What was guessed or repaired: sentences without the file's name.
   std::vector<std::string> notes = {};
 
   /// Counts `count` more of what is passed over.

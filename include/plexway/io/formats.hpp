@@ -40,7 +40,7 @@ struct Format {
 /// All of them.
 [[nodiscard]] std::vector<Format> formats();
 
-/// The format of a file: by its extension, or by its first bytes where that does not tell. Throws
+/// The format of a file: by its extension, or by its first bytes where that is unknown. Throws
 /// InputError for one that is not known, with what to do about it where that is.
 [[nodiscard]] Format format_of(const std::filesystem::path& file);
 

@@ -11,7 +11,7 @@
 
 namespace plexway::io {
 
-/// What the numbers of a matrix are.
+/// The number type of a matrix.
 enum class MatrixNumber { float16, float32, float64 };
 /// Throws UsageError for a name that does not exist.
 [[nodiscard]] MatrixNumber matrix_number_of(std::string_view name);
@@ -69,7 +69,7 @@ class MatrixFile {
 
 /// How far a square matrix is from its own transpose.
 struct Asymmetry {
-  double largest = 0;       ///< difference of the two ways, in the shorter of both
+  double largest = 0;       ///< difference of there and back, relative to the shorter
   double mean = 0;          ///< over all pairs that are reached both ways, and not one
   std::size_t pairs = 0;    ///< so many
   std::size_t one_way = 0;  ///< reached one way only
@@ -78,7 +78,7 @@ struct Asymmetry {
 /// Looks at all pairs. Cost: reads the matrix once, in tiles.
 [[nodiscard]] Asymmetry asymmetry_of(const MatrixFile& matrix);
 
-/// Of the two ways the shorter counts for both. Can be done again if it was ended half way.
+/// Of there and back the shorter counts for both. Can be done again if it was ended half way.
 void make_symmetric(MatrixFile& matrix);
 
 }  // namespace plexway::io

@@ -22,7 +22,7 @@ struct Mixed {
 };
 
 /// Reads all that a file of cells has: lines, polygons, which are cut into triangles, and
-/// tetrahedra, into which hexahedra, prisms and pyramids are cut, in the same way from both sides.
+/// tetrahedra, into which hexahedra, prisms and pyramids are cut alike from both sides.
 /// Of cells of a higher order the corners are taken. The extension (any case) picks the format, and
 /// where it is unknown the first bytes do.
 ///

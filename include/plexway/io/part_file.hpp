@@ -32,7 +32,7 @@ class PartFile {
   /// The part is not needed any more.
   void remove();
 
-  /// What the part of a file is called.
+  /// The name of a part of a file.
   [[nodiscard]] static std::filesystem::path path_of(const std::filesystem::path& out);
 
  private:

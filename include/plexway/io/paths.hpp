@@ -9,7 +9,7 @@
 namespace plexway::io {
 
 /// Writes paths as polylines, in their order, each from its first point to its last. Empty paths
-/// (no way leads) leave no line.
+/// (unreachable targets) leave no line.
 ///
 /// The extension (any case) picks the format: .obj (`v` and `l`), .ply (vertices and edges), .vtp
 /// (lines, with `length` and `source` of each), .json (also lengths, simplices and barycentric

@@ -13,7 +13,7 @@
 namespace plexway::io {
 
 /// A surface in a binary .ply whose rows have one size each, for SurfaceParts: its header is read
-/// once, and ranges of vertices and faces where they lie. No more than is asked for is in memory.
+/// once, and ranges of vertices and faces where they lie. No more than one range is in memory.
 class PlyRows final : public SurfaceRows {
  public:
   /// Throws InputError "FILE:LINE: cause" or "FILE: cause" when it is missing, no regular file,

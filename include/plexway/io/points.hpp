@@ -40,7 +40,7 @@ Points read_points(const std::filesystem::path& file);
 /// when the system refuses.
 void write_points(const std::filesystem::path& file, const Points& points);
 
-/// Those that `write_points` knows.
+/// The extensions that `write_points` knows.
 std::span<const std::string_view> point_output_extensions();
 
 /// Whether `file` is a .ply that has vertices but no faces, strips or edges, as its header says: a

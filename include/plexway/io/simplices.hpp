@@ -8,7 +8,7 @@
 
 namespace plexway::io {
 
-/// Simplices of one dimension, 1 to 4, with coordinates of any number or with lengths alone.
+/// Simplices of one dimension, 1 to 4, with coordinates of any number or with intrinsic lengths.
 struct Simplices {
   /// 1 to 4.
   int dimension = 4;

@@ -39,7 +39,7 @@ class SparseFile {
   void write_row(std::size_t row, std::span<const SparseEntry> entries);
   /// All rows of a block were written. One call at a time. Where it stands is for the journal.
   BlockJournal::Place finish_block(std::size_t block);
-  /// What was written so far, to the disk.
+  /// Flushes what was written so far to the disk.
   void sync() { file_.sync(); }
   /// Makes the matrix of all blocks, which the journal must have, and puts it in its place. The
   /// part stays. Returns the number of entries.

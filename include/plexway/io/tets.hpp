@@ -44,7 +44,7 @@ std::span<const std::string_view> tet_extensions();
 struct NamedText {
   /// All of the file; referred to.
   std::string_view text;
-  /// What messages call it; referred to.
+  /// Its name in messages; referred to.
   std::string_view name;
 };
 

@@ -23,7 +23,7 @@
 
 namespace plexway::io {
 
-/// What a domain's rows are handed over in.
+/// The precision of a domain's rows.
 template <class D>
 struct RowNumber {
   /// Its own numbers; double where they are hidden (shape/pairs.hpp).
@@ -46,7 +46,7 @@ PairsReport run_with_journal(PairsRequest request, BlockJournal& journal,
   } catch (...) {
     try {
       journal.flush(sync);
-    } catch (...) {  // the first error is the one to tell
+    } catch (...) {  // the first error is the one that counts
     }
     throw;
   }
@@ -56,7 +56,7 @@ PairsReport run_with_journal(PairsRequest request, BlockJournal& journal,
 
 }  // namespace detail
 
-/// What is made of a row of distances, and into which file it goes.
+/// How a row of distances is reduced, and the file it goes to.
 template <class Real>
 struct RowOutput {
   /// With a row for each of the request's.
@@ -66,7 +66,7 @@ struct RowOutput {
 };
 
 /// The rows that the journal lacks, into one file or several at once, by `solve(request, sink)`:
-/// all_pairs, or who shares rows with others. `wanted` is not asked for. Throws as `solve`,
+/// all_pairs, or who shares rows with others. `wanted` is not called. Throws as `solve`,
 /// BlockJournal and MatrixFile; what was finished before stays.
 template <class Real, class Solve>
 PairsReport write_rows(const PairsRequest& request, std::span<const RowOutput<Real>> outputs,

@@ -14,7 +14,7 @@
 /// out; nothing here knows a complex. docs/how-to/metrics.md says what is accurate and what is not.
 namespace plexway::metric {
 
-/// The length of an edge that several simplices share and each measures in its own way.
+/// The length of an edge that several simplices share and that each measures for itself.
 enum class Sides {
   own,    ///< each keeps its own where they differ by more than Agreement::jump, else their mean:
           ///< for TriangleMesh with SurfaceHints::refracts, and nothing else
@@ -24,7 +24,7 @@ enum class Sides {
 
 /// How simplices that share an edge agree on its length.
 struct Agreement {
-  /// Whose length it has.
+  /// The simplex whose length it has.
   Sides sides = Sides::mean;
   double jump = 0.15;  ///< as a share of the longer
 };

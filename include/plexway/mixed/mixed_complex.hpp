@@ -30,7 +30,7 @@ struct WeldOptions {
   bool all_vertices = false;  ///< every welded vertex
 };
 
-/// What a mixed domain is made of.
+/// The counts of a mixed domain.
 struct MixedSummary {
   ///@{
   /// Of all pieces; a welded vertex counts in each of them.
@@ -57,7 +57,7 @@ class MixedComplex {
   /// The greatest that a piece may have.
   static constexpr int dimension = 3;
 
-  /// What a piece may be.
+  /// The kinds of pieces.
   using Complex = std::variant<TriangleMesh<Real>, TetMesh<Real>, Wireframe<Real>>;
 
   /// A piece's place in the numbering of the whole.
@@ -93,7 +93,7 @@ class MixedComplex {
   [[nodiscard]] std::size_t simplex_count() const { return summary_.simplices; }
   /// Intrinsic, whatever its pieces have.
   [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
-  /// What it is made of.
+  /// Its counts.
   [[nodiscard]] const MixedSummary& summary() const { return summary_; }
   /// In the order in which they were added.
   [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }
@@ -110,7 +110,7 @@ class MixedComplex {
 
   /// This domain with surfaces that share edges joined to one, and solids that share faces and
   /// measure them alike, where that makes no corner; null where there are none. Made when first
-  /// asked for, after the last change; may be asked for by several threads.
+  /// asked for, after the last change; may be called by several threads.
   [[nodiscard]] std::shared_ptr<const JoinedPieces<Real>> joined() const;
 
   /// Where the vertices of a piece lie, as it was added; may be empty.
@@ -168,7 +168,7 @@ class MixedComplex {
   std::vector<Member> members_;
   std::vector<Weld> welds_;
   std::vector<std::array<Index, 2>> outer_welds_;
-  /// What was asked for, a call of `weld` each.
+  /// The calls of `weld`, in order.
   struct Request {
     Index piece[2];
     WeldOptions options;

@@ -103,11 +103,11 @@ class Ranks final : public RowRanks, public PieceRanks {
 /// This rank came to `share`, and others did not.
 class Absent : public Error {
  public:
-  /// What they said.
+  /// What the ranks agreed on.
   explicit Absent(Ranks::Verdict verdict)
       : Error("rank " + std::to_string(verdict.rank) + " does not come to share the work"),
         verdict_(verdict) {}
-  /// What they said.
+  /// What the ranks agreed on.
   [[nodiscard]] Ranks::Verdict verdict() const { return verdict_; }
 
  private:

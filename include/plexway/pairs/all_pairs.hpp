@@ -29,7 +29,7 @@ struct PairsProgress {
   double seconds_left;     ///< at that rate; +inf until a row is done
 };
 
-/// What a matrix is of.
+/// The rows, columns and options of a matrix.
 struct PairsRequest {
   /// A source a row, of any kind that solves on the domain; nothing: every vertex.
   std::optional<SourceList> rows;
@@ -39,11 +39,11 @@ struct PairsRequest {
   PropagateOptions solve = {};
   /// Rows come in blocks of so many, block b from row b * block on; the last may have fewer.
   std::size_t block = 32;
-  /// Which blocks are wanted; empty: all. Asked once for each, before the first row.
+  /// Which blocks are wanted; empty: all. Called once for each, before the first row.
   std::function<bool(std::size_t block)> wanted = {};
-  /// Where others solve rows of the same matrix (row_ranks.hpp): asked for a block to solve, by any
-  /// thread, one at a time, until there is none; `wanted` is not asked then. Empty: all that are
-  /// wanted, in their order.
+  /// Where others solve rows of the same matrix (row_ranks.hpp): called for a block to solve, by
+  /// any thread, one at a time, until there is none; `wanted` is not called then. Empty: all that
+  /// are wanted, in their order.
   std::function<std::optional<std::size_t>()> next = {};
   /// Called by the calling thread after each of its rows. Returning false ends with Cancelled.
   std::function<bool(const PairsProgress&)> progress = {};
@@ -72,7 +72,7 @@ struct PairsSink {
   std::function<void(std::size_t block)> block = {};
 };
 
-/// A row with all its columns, +inf where no path leads.
+/// A row with all its columns, +inf where unreachable.
 template <class Real>
 using DenseRow = std::span<const Real>;
 
@@ -87,11 +87,11 @@ struct NearEntry {
 template <class Real>
 using SparseRow = std::span<const NearEntry<Real>>;
 
-/// Who solves rows, one thread a source.
+/// The executors that solve rows, one thread a source.
 template <class E>
 concept RowExecutor = std::same_as<E, Serial> || std::same_as<E, OpenMP>;
 
-/// What a run did.
+/// The result of a run.
 struct PairsReport {
   std::size_t rows = 0;            ///< solved, which leaves out what was not wanted
   bool complete = true;            ///< false if max_expansions ended a row early
@@ -120,9 +120,9 @@ struct NearLimits {
 };
 
 /// The same, of entries that are near: within a radius, the k nearest, or both. The row's own
-/// vertex counts, with distance 0. `request.solve.radius` is not asked for.
+/// vertex counts, with distance 0. `request.solve.radius` has no meaning here.
 ///
-/// Each is what `all_pairs` says, up to rounding.
+/// Each is that of `all_pairs`, up to rounding.
 ///
 /// Cost: on surfaces and clouds a solve within the radius, which looks at every vertex (30 ns each
 /// beside what is reached); by Accuracy::fast, from points by the default rule, what a row reaches

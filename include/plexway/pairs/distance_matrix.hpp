@@ -19,7 +19,7 @@ struct DistanceMatrix {
   /// So many points.
   std::size_t size = 0;
   std::vector<double> distance;  ///< row by row, symmetric, 0 on the diagonal; +inf where no path
-  /// The largest difference between the two ways, in the length of the way: an error estimate.
+  /// The largest difference between there and back, as a share of the distance: an error estimate.
   double asymmetry = 0;
   Accuracy accuracy = Accuracy::fast();  ///< by which it was solved
   /// Of all propagations.
@@ -32,8 +32,8 @@ struct DistanceMatrix {
 };
 
 /// All pairs among `points`: one propagation a point, no farther than the triangle inequality and
-/// the rows already known say is needed, read out at the points only. Of the two ways the shorter
-/// counts. Offsets are not asked for (UsageError).
+/// the rows already known say is needed, read out at the points only. Of there and back the shorter
+/// counts. Offsets are refused (UsageError).
 ///
 /// Throws UsageError for no points or a point that is not in the domain, and Cancelled when
 /// `progress`, called with the share that is done, returns false. The accuracy is that of `solve`.

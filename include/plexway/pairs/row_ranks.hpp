@@ -14,13 +14,13 @@
 namespace plexway {
 
 /// Processes that solve rows of one matrix together, such as the ranks of MPI (mpi/ranks.hpp). Each
-/// has the domain; one of them, the leader, deals blocks of rows as they are asked for, and gets
+/// has the domain; one of them, the leader, deals blocks of rows on request, and gets
 /// all rows.
 class RowRanks {
  public:
   /// A row as its numbers or entries lie in memory.
   using Bytes = std::span<const std::byte>;
-  /// Solves what `request.next` tells, by this process' threads.
+  /// Solves the blocks of `request.next`, by this process' threads.
   using Solve = std::function<PairsReport(const PairsRequest&, const PairsSink<Bytes>&)>;
 
   virtual ~RowRanks() = default;

@@ -13,7 +13,7 @@
 
 namespace plexway {
 
-/// What lies within a radius, caller's numbers.
+/// The vertices within a radius, by the caller's numbers.
 template <class Real>
 struct Surroundings {
   /// A vertex and how far it is.

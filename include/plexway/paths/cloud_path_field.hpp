@@ -11,7 +11,7 @@
 
 namespace plexway {
 
-/// A distance field on a cloud of points that can tell the way: along the sheet of triangles that
+/// A distance field on a cloud of points that traces paths: along the sheet of triangles that
 /// the cloud holds.
 ///
 /// @code
@@ -21,7 +21,7 @@ namespace plexway {
 ///
 /// @endcode
 /// Sources and targets are points. Those of a path in between are points of the sheet's triangles:
-/// their simplices are numbers of `cloud.surface()`, whose corners `corners` tells. The cloud and
+/// their simplices are numbers of `cloud.surface()`, whose corners `corners` has. The cloud and
 /// its points are referred to and must outlive it.
 template <class Real>
 class PathField<PointCloud<Real>> {
@@ -55,10 +55,10 @@ class PathField<PointCloud<Real>> {
     return solve(executor, std::span<const PointSource>(&source, 1), options);
   }
 
-  /// What the last solve found.
+  /// The field of the last solve.
   [[nodiscard]] const DistanceField<Real>& distances() const { return field_; }
 
-  /// The way from a point of the cloud back to its nearest source, as on surfaces. Throws
+  /// The path from a point of the cloud back to its nearest source, as on surfaces. Throws
   /// UsageError for a place that is not a point by number, or before a solve. Any number of threads
   /// may trace at once.
   [[nodiscard]] Path trace(const PointSource& point, const TraceOptions& options = {}) const;

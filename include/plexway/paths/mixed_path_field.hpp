@@ -15,7 +15,7 @@ namespace plexway {
 
 class Cells;
 
-/// A distance field on a mixed domain that can tell the way: through pieces of any dimension and
+/// A distance field on a mixed domain that traces paths: through pieces of any dimension and
 /// over their welds, refracted where two pieces measure a hinge differently.
 ///
 /// @code
@@ -56,13 +56,13 @@ class PathField<MixedComplex<Real>> {
   /// Distances from the same sources found elsewhere, one a vertex of the domain.
   void adopt(DistanceField<Real> found, std::span<const PointSource> sources);
 
-  /// What the last solve found.
+  /// The field of the last solve.
   [[nodiscard]] const DistanceField<Real>& distances() const { return field_; }
 
-  /// The way from a point back to its nearest source: no small change makes it shorter. It crosses
+  /// The path from a point back to its nearest source: no small change makes it shorter. It crosses
   /// a hinge between two speeds where Fermat says, runs along a fast sheet where that pays, and
   /// meets wires at their vertices only, as distances do. Where it is more than 5e-4 longer than
-  /// the distance, or inside a simplex than a way by one of its corners, it was looked for three
+  /// the distance, or inside a simplex than a path by one of its corners, it was looked for three
   /// times, each time more finely. Throws UsageError for a point that is not in the domain, or
   /// before a solve. Any number of threads may trace at once.
   /// Cost: see search_cells; some milliseconds for a hundred cells.

@@ -32,13 +32,13 @@ struct TraceOptions {
   std::size_t max_windows = 50000;
 };
 
-/// A way through a domain, from the point asked for back to the source.
+/// A path through a domain, from the given point back to the source.
 ///
 /// The straight line from each point to the next lies in the simplex of the first of the two, so
-/// the path never leaves the domain. It is empty, and its length +inf, where no path leads; from a
+/// the path never leaves the domain. It is empty, and its length +inf, where none exists; from a
 /// source that no simplex has to itself it is empty and 0 long.
 struct Path {
-  /// From the point asked for to the source.
+  /// From the given point to the source.
   std::vector<PathPoint> points;
   /// Where the points are; empty where the domain has no coordinates.
   std::vector<std::array<double, 3>> positions;

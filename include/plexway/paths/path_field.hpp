@@ -26,7 +26,7 @@ class Cells;
 template <class Real>
 struct Solved;
 
-/// A distance field that can tell the way: what a solve learned, and the domain it holds on.
+/// A distance field that traces paths: what a solve learned, and the domain it holds on.
 ///
 /// @code
 ///   PathField field(mesh, positions);
@@ -87,17 +87,17 @@ class PathField<Domain<Real>> {
     return solve(executor, std::span<const PointSource>(&source, 1), options);
   }
 
-  /// What the last solve found. Vertices that a refinement put in come last.
+  /// The field of the last solve. Vertices that a refinement put in come last.
   [[nodiscard]] const DistanceField<Real>& distances() const { return field_; }
 
-  /// The way from a point (its offset does not count) back to its nearest source: the shortest
-  /// among those nearby, so that any small change makes it longer. Where no path leads, an empty
+  /// The path from a point (its offset does not count) back to its nearest source: the shortest
+  /// among those nearby, so that any small change makes it longer. Where none exists, an empty
   /// path of infinite length.
   ///
   /// On surfaces it is straight over every edge and bends only at vertices with at least pi of
   /// surface on both sides. After windows (Accuracy) it is the one that they lead, as long as the
   /// distance: after Accuracy::exact() to rounding, else to what that is off. After labels it is at
-  /// most 1 % longer than the shortest way along edges, and mostly the shortest of all
+  /// most 1 % longer than the shortest path along edges, and mostly the shortest of all
   /// (TraceOptions, whose margin is refused elsewhere). On surfaces with refracting
   /// edges it is refracted, as on mixed domains (mixed_path_field.hpp). In solids it is the string
   /// to the point, as long as the distance by strings. Solids without coordinates are as if
@@ -120,7 +120,7 @@ class PathField<Domain<Real>> {
   /// vertices, so `linear`; the labels that other levels ask go on by about a simplex. After
   /// windows (Accuracy) all levels but `linear` ask those, and are as accurate as they are: exact
   /// after Accuracy::exact(). On surfaces with refracting edges and in solids by
-  /// lengths alone they are the lengths of paths.
+  /// intrinsic lengths they are the lengths of paths.
   ///
   /// Across an edge `neighbours` and `star` are continuous where the labels on both sides are all
   /// that is asked; docs/how-to/read-out.md has what jumps. Throws UsageError for a
@@ -138,12 +138,12 @@ class PathField<Domain<Real>> {
   [[nodiscard]] std::vector<double> at(std::span<const PointSource> points,
                                        ReadOut level = ReadOut::neighbours) const;
   /// The direction away from the source at the centre of each triangle or tetrahedron, caller's
-  /// order: of length 1, in the triangle's plane; 0 where no path leads, or the source is there.
+  /// order: of length 1, in the triangle's plane; 0 where unreachable, or the source is there.
   /// Needs labels as `at`, and on surfaces positions. UsageError for wireframes.
   [[nodiscard]] std::vector<std::array<double, 3>> gradient() const;
 
   /// The source that the label of each simplex leads to, caller's order: the nearest to its centre,
-  /// by its place in the list; none where no path leads. Surfaces and solids; throws as `at`, but
+  /// by its place in the list; none where unreachable. Surfaces and solids; throws as `at`, but
   /// any policy will do.
   [[nodiscard]] std::vector<Index> simplex_labels() const;
 
@@ -157,7 +157,7 @@ class PathField<Domain<Real>> {
   PathField(const Domain<Real>& domain, const IntrinsicDelaunay* delaunay,
             const Domain<Real>& given, std::span<const std::array<double, 3>> positions);
   [[nodiscard]] Support support_of(Purpose purpose) const;
-  /// What the workspace has of the field.
+  /// The field as the workspace has it.
   enum class Kept { nothing, labels, windows };  // in solids strings
   /// Where they are in the domain.
   std::span<const PointSource> take(std::span<const PointSource> sources);
@@ -185,7 +185,7 @@ class PathField<Domain<Real>> {
   Visibility visibility_ = Visibility::saddles;
   bool solved_ = false;
   Kept kept_ = Kept::nothing;
-  // Where paths are refracted, and in solids by lengths alone.
+  // Where paths are refracted, and in solids of intrinsic lengths.
   std::shared_ptr<const Cells> cells_;
   std::vector<double> cell_distance_;
 };

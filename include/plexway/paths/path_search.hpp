@@ -16,7 +16,7 @@
 
 namespace plexway {
 
-/// What leads a search, and when it stops.
+/// How a search is led, and when it stops.
 struct SearchOptions {
   /// A lower bound of the distance from a vertex (caller's number) to the nearest target, in the
   /// domain's unit. It must change by no more than the distance from vertex to vertex. Empty: the
@@ -28,14 +28,14 @@ struct SearchOptions {
   std::function<bool(const Progress&)> progress = {};  ///< as in PropagateOptions
 };
 
-/// What a search found.
+/// The result of a search.
 struct SearchResult {
-  /// One a target, in their order; empty, of infinite length, where no path leads.
+  /// One a target, in their order; empty, of infinite length, where unreachable.
   std::vector<Path> paths;
   std::vector<double> distance;  ///< as labels have it, before paths are pulled straight
   /// False if max_expansions ended the search early.
   bool complete = true;
-  /// What it cost.
+  /// The work that it took.
   PropagateStatistics statistics;
 };
 
@@ -47,12 +47,12 @@ struct SearchResult {
 /// that the label came in by at some point x, and has the distance from there to the target in
 /// space to go: the least such sum is that of the straight line once the target is turned into the
 /// plane of T about that edge, or over one of its ends. Other bounds h know vertices: the path
-/// comes to a point x of T after d(x) at least, and has h(x) at least to go. With r the longest way
-/// from T's centre c to its corners, d(x) >= d(c) - r, else the way by x and straight on to c would
-/// be a shorter one to c; and h(x) >= h(c) - r, because a lower bound of distances that changes
-/// faster than these can be cut down to one that does not. So the bound is d(c) + h(c) - 2 r. Once
-/// it is no less than what a target has for the first label that waits, no label that waits can
-/// lead to a shorter path there: the target is settled. The search stops when all are.
+/// comes to a point x of T after d(x) at least, and has h(x) at least to go. With r the longest
+/// distance from T's centre c to its corners, d(x) >= d(c) - r, else the path by x and straight on
+/// to c would be a shorter one to c; and h(x) >= h(c) - r, because a lower bound of distances that
+/// changes faster than these can be cut down to one that does not. So the bound is d(c) + h(c) - 2
+/// r. Once it is no less than what a target has for the first label that waits, no label that waits
+/// can lead to a shorter path there: the target is settled. The search stops when all are.
 ///
 /// *Only one thread* takes labels in that order: there is no search for other executors.
 template <class Real>
@@ -62,7 +62,7 @@ class PathSearch {
   /// Throws UsageError for a surface with refracting edges.
   explicit PathSearch(const TriangleMesh<Real>& mesh);
   /// A* by the straight line in space, times `scale`. Throws UsageError, naming the triangle and
-  /// the greatest scale that would do, where a way on the surface may be shorter than that:
+  /// the greatest scale that would do, where a path on the surface may be shorter than that:
   /// surfaces with another metric than that of their positions. Cost: linear, once. Refers to both.
   PathSearch(const TriangleMesh<Real>& mesh, std::span<const std::array<double, 3>> positions,
              double scale = 1);

@@ -48,7 +48,7 @@ struct PictureOptions {
   bool transparent = false;        ///< the background
   std::string title = "distance";  ///< over the colour bar
   bool legend = true;              ///< the colour bar, and what grey means
-  /// What is cut away; without: nothing.
+  /// The half-space that is cut away; without: none.
   std::optional<Clip> clip = {};
   /// Surfaces of equal value inside solids, at these values; the solids become ghosts.
   std::vector<double> isosurfaces = {};

@@ -23,7 +23,7 @@ struct Part {
   std::span<const std::array<std::uint32_t, 3>> triangles = {};
   /// Likewise.
   std::span<const std::array<std::uint32_t, 4>> tets = {};
-  /// One a vertex, of any length, or none: which way the discs of a cloud face.
+  /// One a vertex, of any length, or none: the side that the discs of a cloud face.
   std::span<const Point> normals = {};
   /// One a vertex, or none: then the part has one colour. What is not finite was not reached.
   std::span<const double> value = {};
@@ -31,7 +31,7 @@ struct Part {
   /// linearly and have isolines. What is not finite counts as 0.
   std::span<const Point> slope = {};
   /// One a vertex, or none: which cell it is in, negative where in none. Each cell has a colour of
-  /// its own, and `value`, the distance from the cell's source, tells where borders run inside of
+  /// its own, and `value`, the distance from the cell's source, says where borders run inside of
   /// triangles.
   std::span<const std::int32_t> label = {};
   std::optional<Colour> colour = {};  ///< of a part without values
@@ -51,7 +51,7 @@ struct Dots {
 
 /// Everything in one picture. The lengths of all parts are in one unit.
 struct Scene {
-  /// The domain, in as many parts as are shown in different ways.
+  /// The domain, in as many parts as are shown differently.
   std::vector<Part> parts;
   std::vector<std::vector<Point>> paths;  ///< polylines, drawn as tubes
   std::vector<Point> sources;             ///< red balls

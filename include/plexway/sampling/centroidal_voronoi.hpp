@@ -61,7 +61,7 @@ struct CentroidalVoronoi {
 /// distance. Start from `poisson_disks` of the wanted count.
 ///
 /// Labels give the cells and, for each simplex, direction and distance from its seed; their mean
-/// over the cell is the way that the seed walks, straight ahead. Offsets of seeds are not asked
+/// over the cell is where the seed walks, straight ahead. Offsets of seeds are not taken
 /// for.
 ///
 /// Throws UsageError for no seeds, a seed that is not in the domain, options out of range.

@@ -18,14 +18,14 @@ namespace plexway {
 /// Points with their neighbours. Thinned and denoised points are gone: numbers count those kept,
 /// and `points.original` has those in the file.
 struct CloudShape {
-  /// Those kept.
+  /// The points that were kept.
   io::Points points;
   /// Where paths are measured, one a point; empty: at the points.
   std::vector<std::array<double, 3>> smoothed;
   /// Of these.
   Neighbours neighbours;
-  std::size_t k = 0;  ///< as asked for; 0: all within a radius
-  /// Degrees, as asked for (CloudOptions).
+  std::size_t k = 0;  ///< as requested; 0: all within a radius
+  /// Degrees, as requested (CloudOptions).
   std::optional<double> max_normal_angle;
 
   /// As many as there were.
@@ -34,14 +34,14 @@ struct CloudShape {
   std::size_t outliers = 0;    ///< dropped by denoising
   /// Is each point the mean of those in a cube?
   bool thinned = false;
-  /// Do the file's normals tell inside from outside?
+  /// Do the file's normals distinguish inside from outside?
   bool normals_agree = false;
 
   /// Where paths are measured, smoothed or not.
   [[nodiscard]] const std::vector<std::array<double, 3>>& measured() const {
     return smoothed.empty() ? points.positions : smoothed;
   }
-  /// The file's normals where they tell inside from outside, else none.
+  /// The file's normals where they distinguish inside from outside, else none.
   [[nodiscard]] std::span<const std::array<double, 3>> normals() const {
     return normals_agree ? std::span(points.normals) : std::span<const std::array<double, 3>>();
   }

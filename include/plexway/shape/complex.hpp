@@ -16,7 +16,7 @@ using AnyComplex = std::variant<std::monostate PLEXWAY_DOMAINS(PLEXWAY_POINTER)>
 #undef PLEXWAY_POINTER
 
 /// The complex with the vertices and simplices of the shape. Lives as long as the domain. Where a
-/// surface is solved on other triangles it is built when it is first asked for. Of a mixed domain
+/// surface is solved on other triangles it is built at the first call. Of a mixed domain
 /// vertices and simplices have the numbers of its pieces, and behind a mask simplices those of
 /// AnyDomain::open_simplices.
 [[nodiscard]] AnyComplex complex_of(const AnyDomain& domain);

@@ -27,7 +27,7 @@ enum class Triangulation {
 /// Which ones they became.
 struct TriangulationReport {
   Triangulation done = Triangulation::input;  ///< never automatic
-  /// Edges flipped on the way.
+  /// The number of edges that were flipped.
   std::size_t flips = 0;
   /// New vertices, by refinement.
   std::size_t inserted_vertices = 0;
@@ -112,7 +112,7 @@ class AnyField {
   [[nodiscard]] Accuracy accuracy() const {
     return std::visit([](const auto& f) { return f.accuracy; }, data);
   }
-  /// What it cost.
+  /// The work that it took.
   [[nodiscard]] const PropagateStatistics& statistics() const {
     return std::visit([](const auto& f) -> const PropagateStatistics& { return f.statistics; },
                       data);

@@ -9,8 +9,8 @@
 
 namespace plexway {
 
-/// The mask that a text tells: `vertices:FILE` or `simplices:FILE`, a number (0-based) a line, are
-/// closed; `FILE:3,7`, vertices with these labels (io::read_vertex_labels); `regions:3,7`,
+/// The mask that a text describes: `vertices:FILE` or `simplices:FILE`, a number (0-based) a line,
+/// are closed; `FILE:3,7`, vertices with these labels (io::read_vertex_labels); `regions:3,7`,
 /// simplices of these regions of the shape's own file (AnyShape::regions). Throws UsageError for
 /// another text and for shapes that have no masks, InputError "FILE:LINE: cause", for a label or
 /// region that nothing has, and where nothing stays open; messages name the option as `spelling`

@@ -24,7 +24,7 @@ struct FillOptions {
   [[nodiscard]] bool given() const;
 };
 
-/// What is asked of level sets, by OpenVDB.
+/// How level sets are read, by OpenVDB.
 struct VolumeOptions {
   bool repair = false;    ///< take what a surface encloses: closes holes, sorts out overlaps
   std::string grid = {};  ///< which level set of a .vdb; empty: the only one
@@ -47,7 +47,7 @@ struct CloudPreparation {
   [[nodiscard]] bool given() const;
 };
 
-/// What is told while a domain is read, filled and looked through. Any may be empty.
+/// Callbacks while a domain is read, filled and checked. Any may be empty.
 struct ReadProgress {
   std::function<void(std::string_view)> stage = {};  ///< what begins: "reading knot.ply"
   /// How much of it is done, 0 to 1. Returning false stops with Cancelled.
@@ -57,7 +57,7 @@ struct ReadProgress {
   std::function<void(std::string_view)> note = {};  ///< a line for people
 };
 
-/// What messages call an option: a field of these structs, or a flag of the command line.
+/// The name of an option in messages: a field of these structs, or a flag of the command line.
 enum class Spelling {
   fields,  ///< max_volume
   flags,   ///< --max-volume
@@ -67,7 +67,7 @@ enum class Spelling {
 
 /// How to read a domain from a file.
 struct ReadOptions {
-  /// What to take it as; nothing: what the file says. A surface may be taken as a solid (it is
+  /// The kind to take it as; empty: what the file holds. A surface may be taken as a solid (it is
   /// filled), its edges as a wireframe, its vertices as a cloud; a .msh, .vtu or .vtk as mixed:
   /// with its lines and triangles beside its tetrahedra.
   std::optional<DomainKind> as = {};
@@ -77,7 +77,7 @@ struct ReadOptions {
   VolumeOptions volume = {};
   /// How points are made a domain.
   CloudPreparation cloud = {};
-  /// Refuse a file of which something would be left out, guessed or mended, such as a face with a
+  /// Refuse a file of which something would be left out, guessed or repaired, such as a face with a
   /// corner twice.
   bool strict = false;
   /// Vertices of a surface, a solid or a wireframe that are no farther apart than this, in file
@@ -85,7 +85,7 @@ struct ReadOptions {
   std::optional<double> merge = {};
   /// How messages name these options.
   Spelling spelling = Spelling::fields;
-  /// What is told meanwhile.
+  /// Progress meanwhile.
   ReadProgress progress = {};
 };
 

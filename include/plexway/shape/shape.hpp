@@ -62,7 +62,7 @@ struct MeasuredLengths {
   /// Of a mixed domain's simplices, all kinds in order, and of a solid's with regions to each
   /// speed.
   std::vector<double> speeds;
-  /// Simplices may measure an edge they share in two ways.
+  /// Simplices may give an edge that they share two lengths.
   bool refracts = false;
   /// They were to, but a solid of so many speeds, or of tensors, takes their mean.
   bool smoothed = false;
@@ -104,7 +104,7 @@ class AnyShape {
   /// Edges.
   [[nodiscard]] static AnyShape wireframe(Points positions,
                                           std::vector<std::array<Index, 2>> edges);
-  /// By lengths alone, one row a simplex, in the order of TriangleMesh, TetMesh and Wireframe.
+  /// Intrinsic lengths, one row a simplex, in the order of TriangleMesh, TetMesh and Wireframe.
   [[nodiscard]] static AnyShape surface(std::size_t vertices,
                                         std::vector<std::array<Index, 3>> triangles,
                                         std::vector<std::array<double, 3>> lengths);
@@ -126,7 +126,7 @@ class AnyShape {
 
   /// The file, or empty.
   [[nodiscard]] const std::filesystem::path& file() const;
-  /// What it holds.
+  /// The data that it holds.
   [[nodiscard]] const Data& data() const;
   /// Its kind.
   [[nodiscard]] DomainKind kind() const;
@@ -138,7 +138,7 @@ class AnyShape {
   }
   /// Of its simplices; of a mixed domain the greatest.
   [[nodiscard]] int dimension() const;
-  /// What its simplices are called, in the plural.
+  /// The name of its simplices, in the plural.
   [[nodiscard]] std::string_view simplex_name() const;
   /// Points, of a cloud.
   [[nodiscard]] std::size_t vertices() const;
@@ -156,7 +156,7 @@ class AnyShape {
   /// of no such file, or whose simplices are not the file's.
   [[nodiscard]] std::vector<std::int64_t> regions() const;
 
-  /// What was done with a file besides taking what it has.
+  /// What was cut, dropped, passed over or repaired of its file.
   [[nodiscard]] const io::FileReport& report() const;
   /// Simplices with a vertex twice, by their numbers: no domain is built of them.
   [[nodiscard]] std::span<const Index> collapsed() const;
@@ -197,8 +197,8 @@ class AnyShape {
   /// leads.
   [[nodiscard]] CurveSource joined(std::span<const PointSource> points) const;
   /// The whole boundary: of a surface as a curve, of a solid its faces (every vertex with its exact
-  /// distance; by lengths alone the boundary's vertices), of a wireframe the ends of single edges.
-  /// Throws InputError where there is none, UsageError for other kinds.
+  /// distance; of intrinsic lengths the boundary's vertices), of a wireframe the ends of single
+  /// edges. Throws InputError where there is none, UsageError for other kinds.
   [[nodiscard]] Source boundary(double offset = 0) const;
 
   /// Lengths by a metric. Triangles may measure an edge they share in two ways where the metric

@@ -5,11 +5,11 @@
 #include <plexway/support.hpp>
 
 /// @file
-/// The part of the table of what goes together (support.hpp) that is asked about files, shapes and
+/// The part of the table of supported combinations (support.hpp) that is about files, shapes and
 /// how they are built.
 namespace plexway {
 
-/// What is asked for while files are read. `X(name, what it is)`.
+/// What may be requested while files are read. `X(name, what it is)`.
 #define PLEXWAY_READINGS(X)                \
   X(kind, "another kind, ReadOptions::as") \
   X(connecting, "CloudPreparation")        \
@@ -44,10 +44,10 @@ struct FileUse {
   bool writes_volume = false;  ///< VolumeOptions::writes_volume
   bool several = false;        ///< one of several files
   bool copied = false;         ///< points to be written as they are, by 'plexway convert'
-  bool positions = true;       ///< not lengths alone
+  bool positions = true;       ///< not intrinsic lengths
 };
 
-/// Does what is asked for while files are read go together with a file?
+/// Does a file support what is requested while it is read?
 constexpr Support support(Reading reading, const FileUse& f) {
   using enum DomainKind;
   const bool level_set = f.form == FileForm::level_set, boundary = f.form == FileForm::boundary;
@@ -96,7 +96,7 @@ constexpr Support support(Reading reading, const FileUse& f) {
   return Support();
 }
 
-/// Are these other triangles than the shape's? Triangulation::automatic gives way where they may
+/// Are these other triangles than the shape's? Triangulation::automatic yields where they may
 /// not be.
 constexpr bool on_other_triangles(Triangulation triangulation) {
   return triangulation == Triangulation::delaunay || triangulation == Triangulation::refined;
@@ -123,7 +123,7 @@ constexpr Support support_of_keeping(DomainKind domain, bool measured, bool mask
   return support(Purpose::kept_builds, domain);
 }
 
-/// Does a purpose go together with a shape, with everything that it tells?
+/// Does a shape, with all its properties, support a purpose?
 [[nodiscard]] inline Support support(Purpose purpose, const AnyShape& shape) {
   const DomainKind kind = shape.kind();
   const bool embedded = kind == DomainKind::solid && shape.lengths() == nullptr;

@@ -58,7 +58,7 @@ class KuhnGrid {
   /// N coordinates a vertex, as SimplicialComplex takes them.
   [[nodiscard]] std::vector<double> positions() const;
   /// The simplices of all cells that are not absent, N! a cell, cells with axis 0 fastest.
-  /// `absent` is asked once a cell.
+  /// `absent` is called once a cell.
   [[nodiscard]] std::vector<Simplex> simplices(const Absent& absent = {}) const;
   /// All of it as a domain. Throws InputError if every cell is absent.
   template <class Real>

@@ -12,11 +12,11 @@
 
 namespace plexway {
 
-/// What a complex knows where it is flat, for the library's own use.
+/// What is known of a complex where it is flat, for the library's own use.
 template <int N>
 struct FlatDomain;
 
-/// What a complex is made of, counted while it is built.
+/// The counts of a complex, made while it is built.
 struct SimplicialSummary {
   /// Referenced or not: as many as were given.
   std::size_t vertices = 0;
@@ -27,7 +27,7 @@ struct SimplicialSummary {
   std::size_t boundary_facets = 0;        ///< one simplex
   std::size_t fan_facets = 0;             ///< more than two simplices
   std::size_t pinched_vertices = 0;       ///< parts that share no facet touch there
-  std::size_t unreferenced_vertices = 0;  ///< in no simplex: no path leads to them
+  std::size_t unreferenced_vertices = 0;  ///< in no simplex: unreachable
   std::size_t degenerate_simplices = 0;   ///< no volume
   std::size_t violated_simplices = 0;     ///< no flat simplex has these lengths
   std::size_t components = 0;             ///< of simplices joined by vertices
@@ -72,14 +72,15 @@ class SimplicialComplex {
   static constexpr int dimension = N;
   /// In what order a simplex has its edges.
   using Layout = SimplexLayout<N>;
-  /// What propagation reads of a simplex.
+  /// The record of a simplex that propagation reads.
   using Record = SimplexRecord<Real, N>;
   /// Vertices of a simplex.
   using Corners = std::array<Index, N + 1>;
   /// Of a simplex, one an edge: (0,1) (0,2) (1,2) (0,3) ...
   using Lengths = std::array<double, N*(N + 1) / 2>;
 
-  /// From lengths alone: one row a simplex, in the order (0,1) (0,2) (1,2) (0,3) (1,3) (2,3) (0,4)
+  /// From intrinsic lengths: one row a simplex, in the order (0,1) (0,2) (1,2) (0,3) (1,3) (2,3)
+  /// (0,4)
   /// ... of its corners. Two vertices have one edge: where simplices differ by rounding the mean is
   /// taken. Throws InputError naming the simplex for a vertex out of range or twice in it, a length
   /// that is negative or not finite, two lengths of one edge, and for no simplex or more than
@@ -98,9 +99,9 @@ class SimplicialComplex {
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
   /// Of dimension N.
   [[nodiscard]] std::size_t simplex_count() const { return records_.size(); }
-  /// Intrinsic: the lengths of edges are all that is asked for.
+  /// Intrinsic: the lengths of edges are all that is needed.
   [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
-  /// What it is made of, counted while it was built.
+  /// Its counts, made while it was built.
   [[nodiscard]] const SimplicialSummary& summary() const { return summary_; }
   /// One unit inside, in the input's: the mean edge.
   [[nodiscard]] double unit() const { return summary_.mean_edge; }

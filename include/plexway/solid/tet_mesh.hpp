@@ -20,7 +20,7 @@ namespace plexway {
 
 struct TetLayout;
 
-/// What a solid is made of, counted while it is built.
+/// The counts of a solid, made while it is built.
 struct SolidSummary {
   /// Referenced or not: as many as were given.
   std::size_t vertices = 0;
@@ -36,7 +36,7 @@ struct SolidSummary {
   std::size_t reflex_vertices = 0;        ///< ends of reflex edges, and pinched vertices
   std::size_t pinched_vertices = 0;       ///< tetrahedra touch there in the vertex only
   std::size_t pinched_edges = 0;          ///< tetrahedra touch there in the edge only
-  std::size_t unreferenced_vertices = 0;  ///< in no tetrahedron: no path leads to them
+  std::size_t unreferenced_vertices = 0;  ///< in no tetrahedron: unreachable
   std::size_t degenerate_tets = 0;        ///< no volume, in the input's precision
   std::size_t inverted_tets = 0;          ///< negative volume as given; turned over
   /// The lowest number of such a tetrahedron; none: there is none.
@@ -48,10 +48,10 @@ struct SolidSummary {
 
 /// A solid made of tetrahedra, glued where two share a face.
 ///
-/// With coordinates it is a part of Euclidean space; with lengths alone, a piecewise flat metric.
-/// Boundary, several components, vertices and edges where tetrahedra only touch, unreferenced
-/// vertices and tetrahedra without volume are all allowed. Immutable once built, so any number of
-/// threads may read it.
+/// With coordinates it is a part of Euclidean space; with intrinsic lengths a piecewise flat
+/// metric. Boundary, several components, vertices and edges where tetrahedra only touch,
+/// unreferenced vertices and tetrahedra without volume are all allowed. Immutable once built, so
+/// any number of threads may read it.
 ///
 /// Vertices and tetrahedra have the caller's numbers in this interface. Inside they are reordered
 /// for locality. Memory: 68 bytes a tetrahedron and 20 a vertex in float.
@@ -74,8 +74,8 @@ class TetMesh {
   TetMesh(std::span<const std::array<double, 3>> positions,
           std::span<const std::array<Index, 4>> tets, int threads = 0);
 
-  /// From lengths alone: lengths[t] are those of the edges (0,1) (0,2) (1,2) (0,3) (1,3) (2,3) of
-  /// tetrahedron t, and must be the same wherever an edge occurs (up to rounding; not checked).
+  /// From intrinsic lengths: lengths[t] are those of the edges (0,1) (0,2) (1,2) (0,3) (1,3) (2,3)
+  /// of tetrahedron t, and must be the same wherever an edge occurs (up to rounding; not checked).
   /// Lengths that no tetrahedron has are replaced by those of the nearest flat one along that order
   /// (SolidSummary::degenerate_tets counts). Throws as above, and for a length that is negative or
   /// not finite.
@@ -92,7 +92,7 @@ class TetMesh {
   [[nodiscard]] MetricKind metric() const {
     return summary_.embedded ? MetricKind::embedded : MetricKind::intrinsic;
   }
-  /// What it is made of, counted while it was built.
+  /// Its counts, made while it was built.
   [[nodiscard]] const SolidSummary& summary() const { return summary_; }
   /// Has it coordinates?
   [[nodiscard]] bool embedded() const { return summary_.embedded; }

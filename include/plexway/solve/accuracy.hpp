@@ -19,7 +19,7 @@ class Accuracy {
   /// else `fast`. So it is `fast` on executor GL, under refraction, and with options that are of
   /// labels (Visibility but saddles, a step). Sheets of a mixed domain that join to one surface are
   /// solved by windows, in double exactly. Where windows become too many, labels take over
-  /// (PropagateStatistics::windows_gave_up); asked for by name, windows end with EndlessError
+  /// (PropagateStatistics::windows_gave_up); requested by name, windows end with EndlessError
   /// there.
   static constexpr Accuracy usual() { return Accuracy(Kind::usual, 7e-5); }
   /// One label a simplex: on surfaces mean errors of 3e-4 to 2e-3, single vertices more.

@@ -8,14 +8,15 @@
 
 namespace plexway {
 
-/// What a propagation cost.
+/// The work that a solve took.
 struct PropagateStatistics {
   std::size_t expansions = 0;  ///< simplices taken from the queue
   std::size_t updates = 0;     ///< labels accepted
   /// Simplices that a label came to.
   std::size_t reached_simplices = 0;
   /// Surfaces, but for Accuracy::exact: vertices that came out farther than a neighbour and the
-  /// edge between, and that got the way by that neighbour. Many: the field is less accurate there.
+  /// edge between, and that were set to the length of that path. Many: the field is less accurate
+  /// there.
   std::size_t lowered_vertices = 0;
   /// Likewise vertices that came out nearer than the straight line through space by more than
   /// 1e-4 of it. They got its length, a bound that is mostly still too short.
@@ -24,15 +25,15 @@ struct PropagateStatistics {
   /// is `fast`. 0 or 1; more in sums over several fields.
   std::size_t windows_gave_up = 0;
   ///@{
-  /// In pieces (OpenMP): how often they exchanged letters, how many of these there were, of how
+  /// In pieces (OpenMP): how often they exchanged messages, how many of these there were, of how
   /// many bytes, and how many bytes this process sent to others (OpenMP::ranks).
-  std::size_t supersteps = 0, letters = 0, letter_bytes = 0, sent_bytes = 0;
+  std::size_t supersteps = 0, messages = 0, message_bytes = 0, sent_bytes = 0;
   ///@}
 };
 
 /// Distances at the vertices, in the caller's order and the domain's unit.
 ///
-/// +inf where no path leads (or beyond the radius), exactly the source's offset (0 by default) at a
+/// +inf where unreachable (or beyond the radius), exactly the source's offset (0 by default) at a
 /// source vertex, never NaN.
 template <class Real>
 struct DistanceField {
@@ -44,7 +45,7 @@ struct DistanceField {
   std::vector<Real> error;
   Accuracy accuracy = Accuracy::fast();  ///< by which it was solved, never `usual`
   bool complete = true;                  ///< false if max_expansions, or limits of ours, ended it
-  /// What it cost.
+  /// The work that it took.
   PropagateStatistics statistics;
 };
 

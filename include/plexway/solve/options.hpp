@@ -40,7 +40,7 @@ struct Progress {
 /// How far a propagation goes, and by which rule.
 struct PropagateOptions {
   /// Of windows count below schedule, radius, max_expansions and progress. With others (visibility,
-  /// step, vectorised) `usual` is `fast`, and windows asked for by name are refused.
+  /// step, vectorised) `usual` is `fast`, and windows that are requested by name are refused.
   Accuracy accuracy = Accuracy::usual();
   /// When a simplex sees a virtual source.
   Visibility visibility = Visibility::saddles;

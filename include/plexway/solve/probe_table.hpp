@@ -4,7 +4,7 @@
 
 namespace plexway {
 
-/// Where Visibility::tuned aims on the way from a triangle's apex (0) to its centroid (1), by the
+/// Where Visibility::tuned aims on the line from a triangle's apex (0) to its centroid (1), by the
 /// triangle's shape over the edge that a path comes in by: a decision table in the form of GSP 2021
 /// (section 4), with the six of its sixteen entries that can occur.
 struct ProbeTable {

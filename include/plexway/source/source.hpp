@@ -48,7 +48,7 @@ inline bool names_nothing(const PointSource& point) {
   return point.vertex == none && point.simplex == none;
 }
 
-/// What a field may start from.
+/// A source of a field.
 ///
 /// Any source answers two questions: how far are the vertices of a simplex from it, and is it seen
 /// through a hinge whole, clipped or not at all. A point is a virtual source. A segment is a

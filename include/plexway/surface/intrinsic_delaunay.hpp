@@ -12,7 +12,7 @@
 
 namespace plexway {
 
-/// What the triangles of a surface look like, as far as it matters to distances.
+/// The shape of the triangles of a surface, as far as it matters to distances.
 struct TriangulationShape {
   std::size_t inner_edges = 0;  ///< with two triangles
   std::size_t non_delaunay_edges =
@@ -46,7 +46,7 @@ enum class Retriangulation {
 /// (docs/contributing/methods/surfaces.md measures it).
 [[nodiscard]] Retriangulation what_pays(const TriangulationShape& shape);
 
-/// What was done to get there.
+/// The flips and new vertices that led there.
 struct DelaunaySummary {
   /// Edges flipped.
   std::size_t flips = 0;
@@ -115,7 +115,7 @@ template <class Real>
 /// flipped more than 4700 times. Always the same result for the same input.
 ///
 /// Stuck edges are a curiosity of surfaces that are not orientable: the flip would make a loop (an
-/// edge from a vertex to itself) of which a Delta-complex cannot tell on which side it is glued.
+/// edge from a vertex to itself) of which a Delta-complex does not know on which side it is glued.
 class IntrinsicDelaunay {
  public:
   /// Cost: a few flips a vertex at most on usual meshes, 0.1 us each, and 0.1 us a triangle;
@@ -142,7 +142,7 @@ class IntrinsicDelaunay {
   /// Once the meshes wanted are made: frees what they were made from, 96 bytes a triangle and more.
   /// mesh() then throws UsageError; points are mapped as before.
   void release_triangles();
-  /// What was done.
+  /// The flips and new vertices.
   [[nodiscard]] const DelaunaySummary& summary() const;
   /// Bytes held.
   [[nodiscard]] std::size_t bytes() const;
@@ -189,7 +189,7 @@ struct TriangulatedSurface {
   TriangleMesh<Real> mesh;
   /// Translates points where other triangles than the input's were taken; its own are released.
   std::optional<IntrinsicDelaunay> delaunay;
-  /// What was done to them.
+  /// The flips and new vertices.
   Retriangulation done = Retriangulation::keep;
 };
 

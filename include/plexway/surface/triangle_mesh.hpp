@@ -20,7 +20,7 @@ class FaceLayout;
 class IntrinsicDelaunay;
 class TriangleShapes;
 
-/// What a surface is made of, counted while it is built.
+/// The counts of a surface, made while it is built.
 struct SurfaceSummary {
   /// Referenced or not: as many as were given.
   std::size_t vertices = 0;
@@ -32,7 +32,7 @@ struct SurfaceSummary {
   std::size_t boundary_edges = 0;
   std::size_t non_manifold_edges = 0;     ///< more than two triangles
   std::size_t pinched_vertices = 0;       ///< several fans of triangles meet there only
-  std::size_t unreferenced_vertices = 0;  ///< in no triangle: no path leads to them
+  std::size_t unreferenced_vertices = 0;  ///< in no triangle: unreachable
   std::size_t degenerate_faces = 0;       ///< no area, in the input's precision
   std::size_t violated_faces = 0;  ///< lengths broke the triangle inequality (see the constructor)
   std::size_t refracting_edges = 0;  ///< with another length on either side (SurfaceHints)
@@ -122,7 +122,7 @@ class TriangleMesh {
   TriangleMesh(std::span<const std::array<double, 3>> positions,
                std::span<const std::array<Index, 3>> faces, const SurfaceHints& hints = {});
 
-  /// From lengths alone: lengths[f][i] is the length of the edge from corner i of face f to the
+  /// From intrinsic lengths: lengths[f][i] is the length of the edge from corner i of face f to the
   /// next, and must be the same from both sides (but for 1e-5, of which the mean is taken;
   /// InputError). Triangles are glued where two corners share both vertices. An edge longer than
   /// the way around by the other two is shortened to it, and so on (SurfaceSummary::violated_faces
@@ -153,7 +153,7 @@ class TriangleMesh {
   [[nodiscard]] MetricKind metric() const {
     return summary_.refracting_edges > 0 ? MetricKind::refracting : MetricKind::intrinsic;
   }
-  /// What it is made of, counted while it was built.
+  /// Its counts, made while it was built.
   [[nodiscard]] const SurfaceSummary& summary() const { return summary_; }
   /// Bytes this complex holds.
   [[nodiscard]] std::size_t bytes() const;
@@ -185,9 +185,9 @@ class TriangleMesh {
   /// One unit inside, in the input's: the mean edge.
   [[nodiscard]] double unit() const { return summary_.mean_edge; }
   /// Where vertices (inside) lie in space, in units of the mean edge and about some origin; NaN
-  /// where that is not known. Empty where it is of none: lengths alone, or a metric.
+  /// where that is not known. Empty where it has none: intrinsic lengths, or a metric.
   [[nodiscard]] std::span<const std::array<double, 3>> positions() const { return positions_; }
-  /// Are triangles flat in space, with their corners where `positions` says?
+  /// Are triangles flat in space, with their corners at `positions`?
   [[nodiscard]] bool faces_are_in_space() const { return in_space_; }
   /// Ends of the chords at a vertex, all inside.
   struct ChordEnd {

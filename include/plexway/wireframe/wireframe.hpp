@@ -13,14 +13,14 @@
 
 namespace plexway {
 
-/// What a wireframe is made of, counted while it is built.
+/// The counts of a wireframe, made while it is built.
 struct WireframeSummary {
   /// In an edge or not: as many as were given.
   std::size_t vertices = 0;
   /// As given, parallel edges and loops included.
   std::size_t edges = 0;
   std::size_t components = 0;             ///< of edges joined at vertices
-  std::size_t unreferenced_vertices = 0;  ///< in no edge: no path leads to them
+  std::size_t unreferenced_vertices = 0;  ///< in no edge: unreachable
   /// Of length 0.
   std::size_t zero_length_edges = 0;
   double mean_edge = 0;   ///< in the input's unit
@@ -74,7 +74,7 @@ class Wireframe {
   [[nodiscard]] std::size_t simplex_count() const { return edge_count(); }
   /// Intrinsic: the lengths of edges are all that counts.
   [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
-  /// What it is made of, counted while it was built.
+  /// Its counts, made while it was built.
   [[nodiscard]] const WireframeSummary& summary() const { return summary_; }
   /// Bytes this complex holds.
   [[nodiscard]] std::size_t bytes() const;

@@ -21,7 +21,7 @@ namespace plexway {
 const char* const source_set_help =
     "vertex:ID (0-based, file order), point:X,Y,Z (closest point of the domain),\n"
     "vertices:FILE (one a line, an offset behind it if wanted), boundary,\n"
-    "segment:X,Y,Z,X,Y,Z (the shortest way between), polyline:FILE (a point a line),\n"
+    "segment:X,Y,Z,X,Y,Z (the shortest path between), polyline:FILE (a point a line),\n"
     "triangle:ID, circle:X,Y,Z,R; each with +OFFSET behind it if wanted. Repeat it\n"
     "for several sources, each vertex then gets the nearest";
 

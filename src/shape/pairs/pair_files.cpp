@@ -334,7 +334,7 @@ class PairRun {
   }
 
   void compare_ways(MatrixFile& matrix, BlockJournal& journal) {
-    work_.stage("comparing the two ways");
+    work_.stage("comparing there and back");
     // Told once: by then some may have been made symmetric.
     if (journal.noted().empty()) journal.note(text_of(asymmetry_of(matrix)));
     report_.asymmetry = asymmetry_in(journal.noted());
@@ -388,10 +388,10 @@ PairFilesReport run_on(const PairWork& work, const AnyExecutor& executor) {
               executor, [&](const auto& chosen) { run(chosen, *complex); });
       },
       of_rows.complex);
-  report.remarks = domain_remarks(built, work.files.reader);
-  for (Remark& one : rows_remarks(built, report.solved.statistics, work.files.solve.accuracy,
-                                  report.solved.rows, work.files.reader))
-    report.remarks.push_back(std::move(one));
+  report.warnings = domain_warnings(built, work.files.reader);
+  for (Warning& one : rows_warnings(built, report.solved.statistics, work.files.solve.accuracy,
+                                    report.solved.rows, work.files.reader))
+    report.warnings.push_back(std::move(one));
   return report;
 }
 

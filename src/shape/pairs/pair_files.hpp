@@ -13,7 +13,7 @@
 #include <plexway/io/matrix_file.hpp>
 #include <plexway/pairs/row_ranks.hpp>
 #include <plexway/shape/pairs.hpp>
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 
 #include "shape/pairs/pair_tables.hpp"
 
@@ -41,7 +41,7 @@ struct PairFiles {
   double bin_width = 1;    ///< of the histogram
   std::size_t bins = 100;
   std::size_t block = 32;          ///< rows that are finished together
-  Reader reader = Reader::people;  ///< of what is remarked
+  Reader reader = Reader::people;  ///< of what is warned
 
   [[nodiscard]] bool sparse() const { return radius || nearest; }
   /// Are rows and columns the same vertices, in the same order?
@@ -71,7 +71,7 @@ struct PairFilesReport {
   std::uint64_t entries = 0;  ///< of a sparse matrix
   std::optional<StatisticsSummary> statistics = {};
   std::size_t threads = 1, ranks = 1;
-  std::vector<Remark> remarks = {};  ///< on the domain, and on the rows that were solved
+  std::vector<Warning> warnings = {};  ///< on the domain, and on the rows that were solved
 
   /// "2 threads" or "4 ranks, here of 2 threads".
   [[nodiscard]] std::string team() const;

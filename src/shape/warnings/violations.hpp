@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 
 namespace plexway {
 

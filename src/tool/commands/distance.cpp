@@ -25,7 +25,7 @@
 #include "shape/level_set_file.hpp"
 #include "shape/partitioned_field.hpp"
 #include "shape/shape_state.hpp"
-#include "shape/warnings/field_remarks.hpp"
+#include "shape/warnings/field_warnings.hpp"
 #include "shape/words.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/distance_command.hpp"
@@ -164,7 +164,7 @@ Notes notes_on(const DistanceCommand& command, const AnyDomain& solver, const An
   if (std::holds_alternative<GL>(executor) && command.solve.accuracy.empty() &&
       has_accuracies(solver.kind()))
     notes.add("--executor gl knows --accuracy fast only; serial is more accurate");
-  notes.add(remarks(solver, field, sources, options, Reader::tool));
+  notes.add(warnings(solver, field, sources, options, Reader::tool));
   return notes;
 }
 

@@ -29,7 +29,7 @@
 #include "shape/info/solve_words.hpp"
 #include "shape/partitioned_field.hpp"
 #include "shape/stopwatch.hpp"
-#include "shape/warnings/field_remarks.hpp"
+#include "shape/warnings/field_warnings.hpp"
 #include "tool/commands/distance_command.hpp"
 #include "tool/exit_codes.hpp"
 #include "tool/report/console.hpp"
@@ -167,24 +167,25 @@ void check_same_files(PieceRanks& ranks, const std::filesystem::path& input,
 }
 
 /// What the user should know of how several files became one surface.
-std::vector<std::string> remarks_on(const JoinedCounts& joined) {
-  std::vector<std::string> remarks;
+std::vector<std::string> warnings_on(const JoinedCounts& joined) {
+  std::vector<std::string> warnings;
   if (!joined.by_ids && joined.shared > 0)
-    remarks.push_back(
+    warnings.push_back(
         "taken as one, for they lie in one place: " + counted(joined.shared, "points") +
         " of several files; GlobalPointIds in the files would tell");
   if (joined.apart > 0)
-    remarks.push_back("in " + counted(joined.apart, "places") +
-                      " points of several files have different numbers and are not taken as one" +
-                      (joined.shared > 0 ? ""
-                                         : "; no number is in two files: is each file "
-                                           "numbered on its own?"));
+    warnings.push_back("in " + counted(joined.apart, "places") +
+                       " points of several files have different numbers and are not taken as one" +
+                       (joined.shared > 0 ? ""
+                                          : "; no number is in two files: is each file "
+                                            "numbered on its own?"));
   if (joined.parts > 1 && joined.alone > 0)
-    remarks.push_back(std::to_string(joined.alone) + " of " + counted(joined.parts, "files") +
-                      (joined.alone == 1 ? " shares" : " share") +
-                      " no point with another, so they are not reached" +
-                      (joined.by_ids ? "" : " (points are one where they are so to the last bit)"));
-  return remarks;
+    warnings.push_back(
+        std::to_string(joined.alone) + " of " + counted(joined.parts, "files") +
+        (joined.alone == 1 ? " shares" : " share") +
+        " no point with another, so they are not reached" +
+        (joined.by_ids ? "" : " (points are one where they are so to the last bit)"));
+  return warnings;
 }
 
 /// A file that each rank reads some rows of, or files that each reads some of. `joined`: what
@@ -326,18 +327,18 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   add_written(table, {command.out});
   Notes on_files, notes;
   if (joined)
-    for (const std::string& remark : remarks_on(*joined)) on_files.add(remark);
-  notes.add(work_remarks({.statistics = statistics,
-                          .accuracy = field.accuracy,
-                          .complete = field.complete,
-                          .has_windows = true,
-                          .vertices = summary.vertices,
-                          .edges = std::is_same_v<Real, float> && summary.mean_edge > 0
-                                       ? field.max_distance / summary.mean_edge
-                                       : 0},
-                         Reader::tool));
+    for (const std::string& warning : warnings_on(*joined)) on_files.add(warning);
+  notes.add(work_warnings({.statistics = statistics,
+                           .accuracy = field.accuracy,
+                           .complete = field.complete,
+                           .has_windows = true,
+                           .vertices = summary.vertices,
+                           .edges = std::is_same_v<Real, float> && summary.mean_edge > 0
+                                        ? field.max_distance / summary.mean_edge
+                                        : 0},
+                          Reader::tool));
   if (const std::size_t left = summary.vertices - field.reached; left > 0)
-    notes.add({unreached_remark(
+    notes.add({unreached_warning(
         left,
         summary.unreferenced_vertices > 0
             ? counted(summary.unreferenced_vertices, "vertices") + " in none of its triangles"

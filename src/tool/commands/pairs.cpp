@@ -11,7 +11,7 @@
 #include "shape/arguments/point_argument.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/point_file.hpp"
-#include "shape/warnings/field_remarks.hpp"
+#include "shape/warnings/field_warnings.hpp"
 #include "tool/among.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/pairs_matrix.hpp"
@@ -73,17 +73,17 @@ void run_pairs(const PairsCommand& pairs) {
   PointSummary summary(command, domain, points.size());
   add_accuracy(domain.kind(), matrix.accuracy, matrix.statistics, summary.json);
   summary.json["asymmetry"] = matrix.asymmetry;
-  summary.table.add("two ways",
+  summary.table.add("there and back",
                     "differ by " + short_number(matrix.asymmetry) + " of the shorter at most");
   for (std::string& far : far_notes(domain, arguments, points)) notes.add(std::move(far));
-  notes.add(work_remarks({.statistics = matrix.statistics,
-                          .accuracy = matrix.accuracy,
-                          .has_windows = has_accuracies(domain.kind()),
-                          .vertices = domain.vertices(),
-                          .fields = points.size()},
-                         Reader::tool));
+  notes.add(work_warnings({.statistics = matrix.statistics,
+                           .accuracy = matrix.accuracy,
+                           .has_windows = has_accuracies(domain.kind()),
+                           .vertices = domain.vertices(),
+                           .fields = points.size()},
+                          Reader::tool));
   if (matrix.asymmetry > 0.01)
-    notes.add("the two ways between some points, there and back, differ by " +
+    notes.add("distances between some points, there and back, differ by " +
               short_number(100 * matrix.asymmetry) +
               " %, so one of them is off by half of that or more: 'plexway path' is more exact");
   summary.finish(command, matrix.statistics, phases, notes);

@@ -159,7 +159,7 @@ void take_rows(const MatrixCommand& command, const Domain& domain, ProgressLine&
 void print(const MatrixCommand& command, const Domain& domain, const PairFiles& files,
            const PairFilesReport& report) {
   Notes notes;
-  notes.add(report.remarks);
+  notes.add(report.warnings);
   Json json;
   Table table;
   json["input"] = command.input;
@@ -201,10 +201,10 @@ void print(const MatrixCommand& command, const Domain& domain, const PairFiles& 
       json["asymmetry"] = {{"largest", ways.largest},
                            {"mean", ways.mean},
                            {"one_way", static_cast<double>(ways.one_way)}};
-      table.add("two ways", "differ by " + short_number(ways.mean) +
-                                " of the shorter on average, " + short_number(ways.largest) +
-                                " at most" +
-                                (command.symmetric ? "; the shorter counts for both" : ""));
+      table.add("there and back", "differ by " + short_number(ways.mean) +
+                                      " of the shorter on average, " + short_number(ways.largest) +
+                                      " at most" +
+                                      (command.symmetric ? "; the shorter counts for both" : ""));
     }
     if (report.statistics) add_statistics(*report.statistics, json, table);
     add_written(table, {command.out, command.stats, command.histogram});
@@ -269,7 +269,7 @@ void add_matrix_options(CLI::App& app, MatrixCommand& command) {
       ->type_name("K")
       ->group(group);
   app.add_flag("--symmetric", command.symmetric,
-               "of the two ways between two vertices the shorter counts for both")
+               "of there and back the shorter distance counts for both")
       ->group(group);
   app.add_option("--labels", command.labels,
                  "a label a vertex, a line each (below 0: none) or .label.gii: --out is then\n"

@@ -13,9 +13,9 @@
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/paths.hpp>
-#include <plexway/shape/remarks.hpp>
 #include <plexway/shape/search.hpp>
 #include <plexway/shape/support.hpp>
+#include <plexway/shape/warnings.hpp>
 
 #include "io/number_rows.hpp"
 #include "shape/arguments/point_argument.hpp"
@@ -57,9 +57,10 @@ struct PathOutcome {
   std::vector<Path> paths;
   std::vector<double> distance;  // none where only a part was searched
   std::vector<double> promised;  // of each target, as the field has it
+  std::size_t simplices = 0;     // of a cloud those that it was made into
   TriangulationReport triangulation;
   PropagateStatistics statistics;
-  std::vector<Remark> remarks;
+  std::vector<Warning> warnings;
   Accuracy accuracy = Accuracy::fast();
   std::string_view executor = "serial";
   double build = 0, solve = 0, trace = 0;
@@ -73,7 +74,8 @@ PathOutcome run_paths(const Domain& domain, const BuildOptions& building,
   progress.phase("building");
   const AnyDomain built(domain, building);
   outcome.build = built.build_seconds();
-  outcome.remarks = domain_remarks(built, Reader::tool);
+  outcome.simplices = built.simplices();
+  outcome.warnings = domain_warnings(built, Reader::tool);
   const Stopwatch solving;
   if (command.astar) {
     progress.phase("searching");
@@ -95,8 +97,8 @@ PathOutcome run_paths(const Domain& domain, const BuildOptions& building,
   outcome.accuracy = field.field().accuracy();
   outcome.triangulation = field.field().triangulation;
   outcome.distance = field.field().doubles();
-  for (Remark& one : field_remarks(built, field.field(), sources, Reader::tool))
-    outcome.remarks.push_back(std::move(one));
+  for (Warning& one : field_warnings(built, field.field(), sources, Reader::tool))
+    outcome.warnings.push_back(std::move(one));
   progress.phase("tracing");
   const Stopwatch tracing;
   for (const PointSource& target : targets) {
@@ -133,13 +135,12 @@ void report(const PathCommand& command, const Domain& domain, const PathOutcome&
   json["input"] = command.input;
   json["kind"] = domain.kind_name();
   json["vertices"] = domain.vertices();
-  json["simplices"] = domain.simplices();
+  json["simplices"] = outcome.simplices;
   json["paths"] = Json::array();
   table.add("input", command.input);
   if (!command.metric.text.empty()) table.add("metric", command.metric.text);
-  table.add(std::string(domain.kind_name()),
-            counted(domain.vertices(), "vertices") + ", " +
-                counted(domain.simplices(), domain.simplex_name()));
+  table.add(std::string(domain.kind_name()), counted(domain.vertices(), "vertices") + ", " +
+                                                 counted(outcome.simplices, domain.simplex_name()));
   for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
     const Path& path = outcome.paths[k];
     const bool reached = path.source != none;
@@ -201,7 +202,7 @@ Notes path_notes_on(const PathOutcome& outcome, const std::vector<PointSource>& 
     most = std::max(most, gap);
   }
   Notes notes;
-  notes.add(outcome.remarks);
+  notes.add(outcome.warnings);
   if (capped > 0)
     notes.add(counted(capped, "paths") +
               ": the search for a shorter one ended early, so there may be one");

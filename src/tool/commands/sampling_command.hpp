@@ -72,7 +72,7 @@ Notes with_sampled(const Domain& domain, Precision precision, const Use& use) {
   const SampledNumbers numbers(built.open_simplices());
   plexway::with_sampled(built, [&](const auto& complex) { use(complex, numbers); });
   Notes notes;
-  notes.add(domain_remarks(built, Reader::tool));
+  notes.add(domain_warnings(built, Reader::tool));
   return notes;
 }
 

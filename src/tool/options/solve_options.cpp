@@ -35,9 +35,9 @@ void add_accuracy_option(CLI::App& command, std::string& accuracy, const std::st
       command
           .add_option(
               "--accuracy", accuracy,
-              "of surfaces and clouds: accurate (default; mean errors below 1e-4), fast (a\n"
-              "third of the time; 1e-3, single vertices far off), exact (in double), or a mean\n"
-              "error, as 1e-3")
+              "of surfaces, clouds and solids: accurate (default; mean errors below 1e-4 on\n"
+              "surfaces), fast (a third of the time; 1e-3, single vertices far off), exact (in\n"
+              "double; not of solids), or a mean error, as 1e-3")
           ->type_name("NAME|X");
   if (!group.empty()) option->group(group);
 }

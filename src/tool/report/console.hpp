@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 
 #include "file/standard_output.hpp"
 #include "shape/info/report.hpp"
@@ -42,8 +42,8 @@ void leave_nothing_behind();
 class Notes {
  public:
   void add(std::string text) { texts_.push_back(std::move(text)); }
-  void add(const std::vector<Remark>& remarks) {
-    for (const Remark& remark : remarks) texts_.push_back(remark.text);
+  void add(const std::vector<Warning>& warnings) {
+    for (const Warning& warning : warnings) texts_.push_back(warning.text);
   }
   void add(const Notes& more) {
     texts_.insert(texts_.end(), more.texts_.begin(), more.texts_.end());

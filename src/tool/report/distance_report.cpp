@@ -21,8 +21,8 @@ void add_report(const DistanceReport& report, Json& json) {
   json["updates"] = statistics.updates;
   if (statistics.supersteps > 0) {
     json["supersteps"] = statistics.supersteps;
-    json["letters"] = statistics.letters;
-    json["letter_bytes"] = statistics.letter_bytes;
+    json["messages"] = statistics.messages;
+    json["message_bytes"] = statistics.message_bytes;
   }
   if (report.ranks > 0) {
     json["ranks"] = report.ranks;
@@ -53,7 +53,7 @@ void add_report(const DistanceReport& report, Table& table, bool verbose) {
   for (const std::uint64_t bytes : report.counts.peak_bytes) most = std::max(most, bytes);
   table.add("ranks",
             std::to_string(report.ranks) + ", " + counted(statistics.supersteps, "supersteps") +
-                ", " + counted(statistics.letters, "letters") + ", " +
+                ", " + counted(statistics.messages, "messages") + ", " +
                 counted(report.counts.sent_bytes, "bytes") + " from rank to rank, at most " +
                 std::to_string((most + 500'000) / 1'000'000) + " MB in one");
 }

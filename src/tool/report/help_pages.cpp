@@ -10,6 +10,8 @@
 #include <plexway/error.hpp>
 #include <plexway/version.hpp>
 
+#include "tool/exit_codes.hpp"
+
 namespace plexway::cli {
 namespace {
 
@@ -106,7 +108,9 @@ std::string man_page(const CLI::App& tool) {
     page += ".SH " + upper + "\n" + roff(one_line(command->get_description())) + "\n" +
             roff_options(*command) + roff_block(command->get_footer());
   }
-  page += ".SH NOTES\n" + roff_block(tool.get_footer());
+  page += ".SH NOTES\n" + roff_block(tool.get_footer()) + ".SH EXIT STATUS\n";
+  for (const ExitCodeMeaning& one : exit_codes)
+    page += ".TP\n\\fB" + std::to_string(one.code) + "\\fR\n" + roff(one.meaning) + "\n";
   page +=
       ".SH ENVIRONMENT\n.TP\n\\fBPLEXWAY_HELPERS\\fR\nthe folder with plexway\\-tetgen and "
       "plexway\\-openvdb, where they are not where they were installed\n";

@@ -59,7 +59,7 @@ struct TetRecord {
 /// fans of tetrahedra touch in one edge, each fan that is reflex has an entry of its own.
 template <class Real>
 struct ReflexEdge {
-  // First what says that a point is not in its shadow.
+  // First what shows that a point is not in its shadow.
   Vector3<Real> solid;      ///< away from it: sum of the normals, or out of a crack
   Vector3<Real> direction;  ///< from the first end to the second, unit; 0 without length
   Vector3<Real> end[2];

@@ -10,9 +10,9 @@ namespace plexway {
 /// The halfedge on the other side of an edge, packed.
 struct Across {
   static constexpr Index edge_mask = 3;  ///< its edge in its triangle
-  static constexpr Index flip = 4;       ///< it runs the same way: the sheet turns over here
-  static constexpr Index fan = 8;  ///< a cycle: more than two triangles share the edge, or two
-                                   ///< that measure it differently
+  static constexpr Index flip = 4;  ///< it runs in the same direction: the sheet turns over here
+  static constexpr Index fan = 8;   ///< a cycle: more than two triangles share the edge, or two
+                                    ///< that measure it differently
   static constexpr Index special = flip | fan;
   static constexpr int face_shift = 4;
   static constexpr Index limit = Index{1} << 28;  ///< so many triangles at most

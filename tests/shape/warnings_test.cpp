@@ -1,6 +1,6 @@
-// What is told of distances, and to whom: the sentences themselves are in field_remarks_test.cpp.
+// What is told of distances, and to whom: the sentences themselves are in field_warnings_test.cpp.
 
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,15 +11,15 @@
 
 #include "shape/spelling.hpp"
 
-namespace plexway::remarks_test {
+namespace plexway::warnings_test {
 
 namespace {
 
 constexpr std::array readers = {Reader::people, Reader::tool, Reader::python};
 
-bool tells(const std::vector<Remark>& remarks, const std::string& words) {
-  return std::any_of(remarks.begin(), remarks.end(), [&](const Remark& remark) {
-    return remark.text.find(words) != std::string::npos;
+bool tells(const std::vector<Warning>& warnings, const std::string& words) {
+  return std::any_of(warnings.begin(), warnings.end(), [&](const Warning& warning) {
+    return warning.text.find(words) != std::string::npos;
   });
 }
 
@@ -52,7 +52,7 @@ AnyShape two_sheets() {
 TEST_CASE("advice is spelled for who reads it") {
   const AnyDomain cloud(squares(2.5));
   for (const Reader reader : readers) {
-    const auto told = domain_remarks(cloud, reader);
+    const auto told = domain_warnings(cloud, reader);
     REQUIRE(told.size() == 1);
     CHECK(told[0].doubtful);
     CHECK(tells(told, "join parts that have no triangles between them"));
@@ -65,7 +65,7 @@ TEST_CASE("advice is spelled for who reads it") {
   const Source source = PointSource::at(0);
   const AnyField field = cloud.solve(Serial{}, source, near);
   for (const Reader reader : readers) {
-    const auto told = remarks(cloud, field, source, near, reader);
+    const auto told = warnings(cloud, field, source, near, reader);
     CHECK(told.size() == 2);
     CHECK(tells(told, "not reached (inf)"));
     CHECK(tells(told, "ends the search early"));
@@ -85,14 +85,14 @@ TEST_CASE("what is not reached is told, and is no doubt") {
   const AnyDomain domain(two_sheets());
   const PointSource source = PointSource::at(1);
   const AnyField field = domain.solve(Serial{}, source);
-  CHECK(domain_remarks(domain).empty());
-  CHECK(field_remarks(domain, field, source).empty());
-  const auto told = remarks(domain, field, source);
+  CHECK(domain_warnings(domain).empty());
+  CHECK(field_warnings(domain, field, source).empty());
+  const auto told = warnings(domain, field, source);
   REQUIRE(told.size() == 1);
   CHECK(told[0].text == "4 vertices not reached (inf): the surface has 2 components");
   CHECK_FALSE(told[0].doubtful);
   const std::vector<PointSource> both = {source, PointSource::at(4)};
-  CHECK(remarks(domain, domain.solve(Serial{}, both), both).empty());
+  CHECK(warnings(domain, domain.solve(Serial{}, both), both).empty());
 }
 
 TEST_CASE("fields that ended early are told") {
@@ -102,7 +102,7 @@ TEST_CASE("fields that ended early are told") {
   options.max_expansions = 1;
   options.accuracy = Accuracy::fast();
   const auto told =
-      field_remarks(domain, domain.solve(Serial{}, source, options), source, Reader::tool);
+      field_warnings(domain, domain.solve(Serial{}, source, options), source, Reader::tool);
   REQUIRE(told.size() == 1);
   CHECK(told[0].text == "stopped after 1 expansion: distances may still be too long");
   CHECK(told[0].doubtful);
@@ -113,7 +113,7 @@ TEST_CASE("work that got much wrong is told of one field and of many rows") {
   PropagateStatistics sum;
   sum.raised_vertices = 3;
   const auto rows = [&](std::size_t count, Accuracy accuracy, Reader reader) {
-    return rows_remarks(domain, sum, accuracy, count, reader);
+    return rows_warnings(domain, sum, accuracy, count, reader);
   };
   // 3 of 8 vertices, of 80, and of 800.
   CHECK(tells(rows(1, Accuracy::fast(), Reader::tool),
@@ -124,7 +124,7 @@ TEST_CASE("work that got much wrong is told of one field and of many rows") {
   CHECK(tells(rows(1, Accuracy::usual(), Reader::python), "another triangulation= may do better"));
   PropagateStatistics early;
   early.windows_gave_up = 2;
-  const auto told = rows_remarks(domain, early, Accuracy::usual(), 5, Reader::python);
+  const auto told = rows_warnings(domain, early, Accuracy::usual(), 5, Reader::python);
   REQUIRE(told.size() == 1);
   CHECK(told[0].text ==
         "windows became too many to wait for from 2 sources: the distances are those of "
@@ -139,7 +139,7 @@ TEST_CASE("lengths that no flat simplex has are told, of what a mask leaves") {
   const AnyDomain domain(shape);
   CHECK(violations_of(domain).count == 1);
   CHECK(violations_of(domain).first == 0);
-  const auto told = domain_remarks(domain);
+  const auto told = domain_warnings(domain);
   REQUIRE(told.size() == 1);
   CHECK(told[0].text ==
         "lengths break the triangle inequality in 1 triangle of 2, such as triangle 0: their "
@@ -150,7 +150,7 @@ TEST_CASE("lengths that no flat simplex has are told, of what a mask leaves") {
   masked.mask = std::make_shared<const Mask>(mask);
   const AnyDomain left(shape, masked);
   CHECK(violations_of(left).count == 0);
-  CHECK(domain_remarks(left).empty());
+  CHECK(domain_warnings(left).empty());
 }
 
-}  // namespace plexway::remarks_test
+}  // namespace plexway::warnings_test

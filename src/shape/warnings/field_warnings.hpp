@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <plexway/any_domain.hpp>
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 
 namespace plexway {
 
@@ -39,12 +39,12 @@ struct FieldWork {
   bool in_space = true;  ///< have the vertices positions?
 };
 /// What it says of their distances.
-[[nodiscard]] std::vector<Remark> work_remarks(const FieldWork& work, Reader reader);
+[[nodiscard]] std::vector<Warning> work_warnings(const FieldWork& work, Reader reader);
 
 /// So many vertices are not reached; `why` may be empty. `bounded`: a radius or a number of
 /// expansions was given.
-[[nodiscard]] Remark unreached_remark(std::size_t count, std::string why, bool bounded,
-                                      Reader reader);
+[[nodiscard]] Warning unreached_warning(std::size_t count, std::string why, bool bounded,
+                                        Reader reader);
 /// Was one?
 [[nodiscard]] bool is_bounded(const PropagateOptions& options);
 

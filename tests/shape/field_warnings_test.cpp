@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 
 #include "data/crack_plans.hpp"
 
-namespace plexway::field_remarks_test {
+namespace plexway::field_warnings_test {
 
 namespace {
 
@@ -39,17 +39,17 @@ struct Strip {
   }
 };
 
-/// Is this among what is remarked on a field from vertex 0?
-bool remarks(AnyShape shape, const BuildOptions& building, Accuracy accuracy,
-             const std::string& words) {
+/// Is this among what is warned on a field from vertex 0?
+bool warnings(AnyShape shape, const BuildOptions& building, Accuracy accuracy,
+              const std::string& words) {
   const AnyDomain domain(std::move(shape), building);
   const Source source = PointSource::at(0);
   PropagateOptions options;
   options.accuracy = accuracy;
   const AnyField field = domain.solve(Serial{}, source, options);
-  const auto told = plexway::remarks(domain, field, source, options, Reader::tool);
-  return std::any_of(told.begin(), told.end(), [&](const Remark& remark) {
-    return remark.text.find(words) != std::string::npos;
+  const auto told = plexway::warnings(domain, field, source, options, Reader::tool);
+  return std::any_of(told.begin(), told.end(), [&](const Warning& warning) {
+    return warning.text.find(words) != std::string::npos;
   });
 }
 
@@ -57,7 +57,7 @@ bool warns_of_rounding(AnyShape shape, Precision precision, Accuracy accuracy) {
   BuildOptions building;
   building.precision = precision;
   building.triangulation = Triangulation::input;
-  return remarks(std::move(shape), building, accuracy, "use --precision double");
+  return warnings(std::move(shape), building, accuracy, "use --precision double");
 }
 
 /// A roof with so many degrees on either side of its ridge, and a hole there.
@@ -145,7 +145,7 @@ TEST_CASE("strips longer than single precision can hold are told") {
 TEST_CASE("holes of a cloud that points do not tell how to close are told") {
   const auto warns = [](io::Points points,
                         const std::string& words = "around holes that could not be closed") {
-    return remarks(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(), words);
+    return warnings(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(), words);
   };
   std::size_t warned = 0;
   for (unsigned seed = 1; seed <= 12; ++seed) {
@@ -168,8 +168,8 @@ TEST_CASE("noise at a sharp ridge of a cloud is told") {
     std::normal_distribution<double> off(0, noise);
     for (auto& p : points.positions)
       for (double& x : p) x += noise > 0 ? off(random) : 0;
-    return remarks(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(),
-                   "cut through the inside");
+    return warnings(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(),
+                    "cut through the inside");
   };
   CHECK(warns(75, .06));
   CHECK(warns(60, .06));
@@ -207,8 +207,8 @@ TEST_CASE("parts of a cloud that no triangles join are told") {
         points.positions.push_back({double(i), double(j), 0});
         points.positions.push_back({11 + gap + i, 11 + gap + j, 0});
       }
-    return remarks(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(),
-                   "join parts that have no triangles between them");
+    return warnings(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(),
+                    "join parts that have no triangles between them");
   };
   CHECK(warns(2.5));
   CHECK_FALSE(warns(1));
@@ -228,9 +228,9 @@ TEST_CASE("points of a cloud behind a notch in its rim are told") {
     at.offset = offset;
     const Source source = at;
     const AnyField field = domain.solve(Serial{}, source);
-    const auto told = field_remarks(domain, field, source);
-    return std::any_of(told.begin(), told.end(), [](const Remark& remark) {
-      return remark.text.find("around a notch in its rim") != std::string::npos;
+    const auto told = field_warnings(domain, field, source);
+    return std::any_of(told.begin(), told.end(), [](const Warning& warning) {
+      return warning.text.find("around a notch in its rim") != std::string::npos;
     });
   };
   CHECK(warns(17 * 20, 0));
@@ -247,7 +247,7 @@ TEST_CASE("ways that are refracted and bend around edges of a solid are told") {
     BuildOptions building{.precision = Precision::twice};
     metric::SimplexSpeeds speeds{.speed = speed, .agreement = {metric::Sides::own}};
     building.lengths = std::make_shared<const MeasuredLengths>(shape.measure(speeds));
-    return remarks(shape, building, Accuracy::fast(), "around which ways bend, and faces");
+    return warnings(shape, building, Accuracy::fast(), "around which paths bend, and faces");
   };
   const auto whole = [](std::size_t, std::size_t, std::size_t) { return true; };
   const auto pierced = [](std::size_t x, std::size_t y, std::size_t) {
@@ -285,9 +285,9 @@ TEST_CASE("where vertices may be too far behind several edges of a mixed domain 
   const auto told = [](const AnyDomain& domain, const std::vector<Source>& sources,
                        const std::string& words) {
     const AnyField field = domain.solve(Serial{}, sources, {});
-    const auto all = plexway::remarks(domain, field, sources);
-    return std::any_of(all.begin(), all.end(), [&](const Remark& remark) {
-      return remark.text.find(words) != std::string::npos;
+    const auto all = plexway::warnings(domain, field, sources);
+    return std::any_of(all.begin(), all.end(), [&](const Warning& warning) {
+      return warning.text.find(words) != std::string::npos;
     });
   };
   const auto prism = [](const std::vector<samples::CrackPlan::Crack>& cracks, bool wired = true) {
@@ -301,7 +301,7 @@ TEST_CASE("where vertices may be too far behind several edges of a mixed domain 
     return AnyDomain(wired ? AnyShape::mixed(shape) : AnyShape::solid(solid.places, solid.tets),
                      {});
   };
-  const std::string cracks = "the domain have cracks", several = "ways from several sources bend";
+  const std::string cracks = "the domain have cracks", several = "paths from several sources bend";
   const std::vector<Source> one = {PointSource::at(0)};
   const std::vector<Source> two = {PointSource::at(0), PointSource::at(8)};
   const AnyDomain slit = prism({{{2, 4}, {6, 4}}});
@@ -320,4 +320,4 @@ TEST_CASE("where vertices may be too far behind several edges of a mixed domain 
   CHECK_FALSE(told(whole, two, several));
 }
 
-}  // namespace plexway::field_remarks_test
+}  // namespace plexway::field_warnings_test

@@ -1,4 +1,4 @@
-#include "shape/warnings/field_remarks.hpp"
+#include "shape/warnings/field_warnings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -167,36 +167,36 @@ std::string apart_sentence(const AnyShape& domain, std::span<const std::size_t> 
   return text;
 }
 
-std::vector<Remark> domain_remarks(const AnyDomain& solver, Reader reader) {
-  std::vector<Remark> remarks;
-  const auto remark = [&](std::string text, bool doubtful = true) {
-    remarks.push_back({std::move(text), doubtful});
+std::vector<Warning> domain_warnings(const AnyDomain& solver, Reader reader) {
+  std::vector<Warning> warnings;
+  const auto warning = [&](std::string text, bool doubtful = true) {
+    warnings.push_back({std::move(text), doubtful});
   };
   const auto said = [&](Advice advice) { return std::string(spelled(advice, reader)); };
   const AnyShape& domain = solver.shape();
   if (std::string left_out = collapsed_sentence(domain); !left_out.empty())
-    remark(std::move(left_out));
-  for (const std::string& note : domain.report().notes) remark(note, false);
-  if (std::string solid = solid_sentence(solver); !solid.empty()) remark(std::move(solid));
+    warning(std::move(left_out));
+  for (const std::string& note : domain.report().notes) warning(note, false);
+  if (std::string solid = solid_sentence(solver); !solid.empty()) warning(std::move(solid));
   if (const MeasuredLengths* lengths = solver.lengths(); lengths != nullptr && lengths->smoothed)
-    remark(smoothed_sentence() + said(Advice::meant));
-  if (std::string broken = violations_sentence(solver); !broken.empty()) remark(std::move(broken));
+    warning(smoothed_sentence() + said(Advice::meant));
+  if (std::string broken = violations_sentence(solver); !broken.empty()) warning(std::move(broken));
   if (domain.cloud() != nullptr && domain.cloud()->not_finite > 0)
-    remark(counted(domain.cloud()->not_finite, "points") +
-               " not finite, and dropped: vertices count those that are left; " +
-               said(Advice::original) + " their numbers in the file",
-           false);
+    warning(counted(domain.cloud()->not_finite, "points") +
+                " not finite, and dropped: vertices count those that are left; " +
+                said(Advice::original) + " their numbers in the file",
+            false);
   if (const CloudSummary* cloud = solver.cloud()) {
     if (cloud->near_duplicates > 0)
-      remark(counted(cloud->near_duplicates, "points") +
-                 " much nearer to an earlier one than all others are: they count as that one",
-             false);
+      warning(counted(cloud->near_duplicates, "points") +
+                  " much nearer to an earlier one than all others are: they count as that one",
+              false);
     if (100 * cloud->bridges > cloud->distinct)
-      remark(counted(cloud->bridges, "points") +
-             " hang together by single edges: no surface was found there, and ways go from point "
-             "to point; more neighbours may help (" +
-             said(Advice::k) + std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) +
-             ")");
+      warning(counted(cloud->bridges, "points") +
+              " hang together by single edges: no surface was found there, and paths go from point "
+              "to point; more neighbours may help (" +
+              said(Advice::k) + std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) +
+              ")");
     const bool refused =
         !domain.cloud()->points.normals.empty() && domain.cloud()->normals().empty();
     const std::string given = said(Advice::in_the_file), columns = said(Advice::columns);
@@ -204,53 +204,55 @@ std::vector<Remark> domain_remarks(const AnyDomain& solver, Reader reader) {
                                            said(Advice::those) + " do not, and are not taken)"
                                      : "normals" + given + " tell " + columns;
     if (cloud->torn_points > 0)
-      remark(counted(cloud->torn_points, "points") + " (" + std::to_string(cloud->first_torn) +
-             " is the first) around holes that could not be closed, as points there do not tell "
-             "which side of the surface they are on: distances near them may be far off; " +
-             cure);
+      warning(counted(cloud->torn_points, "points") + " (" + std::to_string(cloud->first_torn) +
+              " is the first) around holes that could not be closed, as points there do not tell "
+              "which side of the surface they are on: distances near them may be far off; " +
+              cure);
     if (cloud->chord_points > 0)
-      remark(counted(cloud->chord_points, "points") + " (" + std::to_string(cloud->first_chord) +
-             " is the first) at sharp ridges where points do not tell how the surface runs: edges "
-             "cut through the inside, and distances over them may be far too short; more points "
-             "near the ridge or less noise (" +
-             said(Advice::smooth) + ") help, and " + cure);
+      warning(counted(cloud->chord_points, "points") + " (" + std::to_string(cloud->first_chord) +
+              " is the first) at sharp ridges where points do not tell how the surface runs: edges "
+              "cut through the inside, and distances over them may be far too short; more points "
+              "near the ridge or less noise (" +
+              said(Advice::smooth) + ") help, and " + cure);
     if (cloud->joints > 0)
-      remark(counted(cloud->joints, "pairs") +
-             " of points join parts that have no triangles between them: all ways from one to the "
-             "other go over these; " +
-             (refused ? "" : "normals" + given + " " + columns + " or ") +
-             "points along the edge where they meet would join them");
+      warning(
+          counted(cloud->joints, "pairs") +
+          " of points join parts that have no triangles between them: all paths from one to the "
+          "other go over these; " +
+          (refused ? "" : "normals" + given + " " + columns + " or ") +
+          "points along the edge where they meet would join them");
   }
   if (const BentCrossings bent = bent_crossings(solver); bent.hinges > 0)
-    remark("solids have " + counted(bent.edges, "edges") +
-           " around which ways bend, and faces or edges where the speed changes: single vertices "
-           "whose ways do both may be up to a sixth too far" +
-           (bent.cracks > 0 ? ", most of all where cracks end on such faces; where cracks join on "
-                              "one, single vertices may be too near, by a quarter at worst"
-                            : ""));
+    warning("solids have " + counted(bent.edges, "edges") +
+            " around which paths bend, and faces or edges where the speed changes: single vertices "
+            "whose paths do both may be up to a sixth too far" +
+            (bent.cracks > 0 ? ", most of all where cracks end on such faces; where cracks join on "
+                               "one, single vertices may be too near, by a quarter at worst"
+                             : ""));
   // A single crack has two ends.
   if (const SolidBends bends = solid_bends(solver); bends.cracks > 0 && bends.edges > 2)
-    remark("solids of the domain have cracks, and " + counted(bends.edges, "edges") +
-           " around which ways bend: single vertices behind several of them may be up to a quarter "
-           "too far");
-  return remarks;
+    warning(
+        "solids of the domain have cracks, and " + counted(bends.edges, "edges") +
+        " around which paths bend: single vertices behind several of them may be up to a quarter "
+        "too far");
+  return warnings;
 }
 
-std::vector<Remark> work_remarks(const FieldWork& work, Reader reader) {
-  std::vector<Remark> remarks;
-  const auto remark = [&](std::string text) { remarks.push_back({std::move(text)}); };
+std::vector<Warning> work_warnings(const FieldWork& work, Reader reader) {
+  std::vector<Warning> warnings;
+  const auto warning = [&](std::string text) { warnings.push_back({std::move(text)}); };
   const auto said = [&](Advice advice) { return std::string(spelled(advice, reader)); };
   const PropagateStatistics& done = work.statistics;
   const std::size_t all = work.vertices * work.fields;
   const std::string rows = work.fields > 1 ? " of " + counted(work.fields, "rows") : "";
   if (const std::size_t fields = done.windows_gave_up; fields > 0)
-    remark("windows became too many to wait for" +
-           (fields > 1 ? " from " + counted(fields, "sources") : std::string()) +
-           ": the distances are those of " + said(Advice::fast) + "; " + said(Advice::exact) +
-           " waits longer");
+    warning("windows became too many to wait for" +
+            (fields > 1 ? " from " + counted(fields, "sources") : std::string()) +
+            ": the distances are those of " + said(Advice::fast) + "; " + said(Advice::exact) +
+            " waits longer");
   if (!work.complete)
-    remark("stopped after " + counted(done.expansions, "expansions") +
-           ": distances may still be too long");
+    warning("stopped after " + counted(done.expansions, "expansions") +
+            ": distances may still be too long");
   // Labels that got much wrong say so, and windows are the cure where there are any. Where speeds
   // jump there are none, and what travels along an edge is lowered though nothing is wrong.
   const bool cured = work.has_windows && work.accuracy == Accuracy::fast();
@@ -259,27 +261,27 @@ std::vector<Remark> work_remarks(const FieldWork& work, Reader reader) {
   const bool rounds = work.edges > 0 && work.accuracy != Accuracy::fast();
   const std::size_t raised = done.raised_vertices;
   if (100 * raised > all)
-    remark(counted(raised, "vertices") + rows +
-           " came out nearer than the straight line through space, and were given its length: "
-           "distances here are poor" +
-           (cured    ? cure
-            : rounds ? "; " + said(Advice::twice) + " may do better"
-            : work.has_triangulations
-                ? "; another " + said(Advice::triangulation) + " may do better"
-                : ""));
+    warning(counted(raised, "vertices") + rows +
+            " came out nearer than the straight line through space, and were given its length: "
+            "distances here are poor" +
+            (cured    ? cure
+             : rounds ? "; " + said(Advice::twice) + " may do better"
+             : work.has_triangulations
+                 ? "; another " + said(Advice::triangulation) + " may do better"
+                 : ""));
   const std::size_t lowered = done.lowered_vertices;
   if ((cured ? 50 : 20) * lowered > all)
-    remark(counted(lowered, "vertices") + rows +
-           " came out farther than a neighbour and the edge between, and were given that way: "
-           "distances here are less accurate" +
-           cure);
+    warning(counted(lowered, "vertices") + rows +
+            " came out farther than a neighbour and the edge between, and were set to that length: "
+            "distances here are less accurate" +
+            cure);
   // Rounding turns a line of sight a little at each edge. Where a straight line in space is known
   // it mends what windows lose by that.
   const bool by_labels = work.accuracy == Accuracy::fast();
   if (work.edges > (!work.in_space && !by_labels ? 1e4 : 5e4))
-    remark("distances of up to " + short_number(work.edges) +
-           " edges: single precision may be off by more than 1e-4; use " + said(Advice::twice));
-  return remarks;
+    warning("distances of up to " + short_number(work.edges) +
+            " edges: single precision may be off by more than 1e-4; use " + said(Advice::twice));
+  return warnings;
 }
 
 namespace {
@@ -309,31 +311,31 @@ double largest(const AnyField& field) {
 
 }  // namespace
 
-std::vector<Remark> field_remarks(const AnyDomain& solver, const AnyField& field,
-                                  const SourceList& sources, Reader reader) {
-  std::vector<Remark> remarks;
-  const auto remark = [&](std::string text) { remarks.push_back({std::move(text)}); };
+std::vector<Warning> field_warnings(const AnyDomain& solver, const AnyField& field,
+                                    const SourceList& sources, Reader reader) {
+  std::vector<Warning> warnings;
+  const auto warning = [&](std::string text) { warnings.push_back({std::move(text)}); };
   const AnyShape& domain = solver.shape();
   if (!(largest(field) > 0)) {
     const auto from = reached_sources([&](Index v) { return field[v]; }, sources);
-    if (std::string apart = apart_sentence(domain, from); !apart.empty()) remark(std::move(apart));
+    if (std::string apart = apart_sentence(domain, from); !apart.empty()) warning(std::move(apart));
   }
   if (const CloudSummary* cloud = solver.cloud()) {
     const auto from = reached_sources([&](Index v) { return field[v]; }, sources);
     const RimDetours detours =
         rim_detours(domain.positions(), cloud->mean_spacing, field.doubles(), from);
     if (detours.points > 0)
-      remark(counted(detours.points, "points") + " (" + std::to_string(detours.first) +
-             " is the first) " +
-             (detours.all ? detours.points == 1 ? "is" : "are" : "and more are") + " 5 to " +
-             std::to_string(static_cast<int>(std::ceil(100 * detours.most))) +
-             " % farther from the source than straight, though the cloud is flat there: ways go "
-             "around a notch in its rim or a void; that is too far if the surface does not end "
-             "there, and more points there help");
+      warning(counted(detours.points, "points") + " (" + std::to_string(detours.first) +
+              " is the first) " +
+              (detours.all ? detours.points == 1 ? "is" : "are" : "and more are") + " 5 to " +
+              std::to_string(static_cast<int>(std::ceil(100 * detours.most))) +
+              " % farther from the source than straight, though the cloud is flat there: paths go "
+              "around a notch in its rim or a void; that is too far if the surface does not end "
+              "there, and more points there help");
   }
   if (const std::size_t edges = are_several(sources) ? solid_bends(solver).edges : 0; edges > 0)
-    remark(
-        "ways from several sources bend around " + counted(edges, "edges") +
+    warning(
+        "paths from several sources bend around " + counted(edges, "edges") +
         " of solids: single vertices between what is nearest to the one and to the other "
         "may be up to a quarter too far; the least of a field from each source is more accurate");
   FieldWork work = work_of(solver, field.statistics(), field.accuracy());
@@ -341,8 +343,8 @@ std::vector<Remark> field_remarks(const AnyDomain& solver, const AnyField& field
   work.in_space = !domain.positions().empty();
   if (const double edge = solver.mean_edge(); solver.precision() == Precision::single && edge > 0)
     work.edges = largest(field) / edge;
-  for (Remark& one : work_remarks(work, reader)) remarks.push_back(std::move(one));
-  return remarks;
+  for (Warning& one : work_warnings(work, reader)) warnings.push_back(std::move(one));
+  return warnings;
 }
 
 bool is_bounded(const PropagateOptions& options) {
@@ -350,7 +352,7 @@ bool is_bounded(const PropagateOptions& options) {
          options.max_expansions != PropagateOptions{}.max_expansions;
 }
 
-Remark unreached_remark(std::size_t count, std::string why, bool bounded, Reader reader) {
+Warning unreached_warning(std::size_t count, std::string why, bool bounded, Reader reader) {
   if (bounded)
     why.append(why.empty() ? "" : ", and ")
         .append(spelled(Advice::bounds, reader))
@@ -359,8 +361,8 @@ Remark unreached_remark(std::size_t count, std::string why, bool bounded, Reader
           false};
 }
 
-std::vector<Remark> reach_remarks(const AnyDomain& domain, const AnyField& field,
-                                  const PropagateOptions& options, Reader reader) {
+std::vector<Warning> reach_warnings(const AnyDomain& domain, const AnyField& field,
+                                    const PropagateOptions& options, Reader reader) {
   const std::size_t unreached = std::visit(
       [](const auto& f) {
         return static_cast<std::size_t>(std::count_if(f.distance.begin(), f.distance.end(),
@@ -368,24 +370,24 @@ std::vector<Remark> reach_remarks(const AnyDomain& domain, const AnyField& field
       },
       field.data);
   if (unreached == 0) return {};
-  return {unreached_remark(unreached, why_unreached(domain, reader), is_bounded(options), reader)};
+  return {unreached_warning(unreached, why_unreached(domain, reader), is_bounded(options), reader)};
 }
 
-std::vector<Remark> remarks(const AnyDomain& domain, const AnyField& field,
-                            const SourceList& sources, const PropagateOptions& options,
-                            Reader reader) {
-  std::vector<Remark> all = domain_remarks(domain, reader);
-  for (auto& some : {field_remarks(domain, field, sources, reader),
-                     reach_remarks(domain, field, options, reader)})
+std::vector<Warning> warnings(const AnyDomain& domain, const AnyField& field,
+                              const SourceList& sources, const PropagateOptions& options,
+                              Reader reader) {
+  std::vector<Warning> all = domain_warnings(domain, reader);
+  for (auto& some : {field_warnings(domain, field, sources, reader),
+                     reach_warnings(domain, field, options, reader)})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }
 
-std::vector<Remark> rows_remarks(const AnyDomain& domain, const PropagateStatistics& sum,
-                                 Accuracy accuracy, std::size_t rows, Reader reader) {
+std::vector<Warning> rows_warnings(const AnyDomain& domain, const PropagateStatistics& sum,
+                                   Accuracy accuracy, std::size_t rows, Reader reader) {
   FieldWork work = work_of(domain, sum, accuracy);
   work.fields = rows;
-  return work_remarks(work, reader);
+  return work_warnings(work, reader);
 }
 
 }  // namespace plexway
