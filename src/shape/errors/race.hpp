@@ -18,6 +18,8 @@ struct RaceTimes {
   std::vector<double> plexway, dijkstra;
 };
 
+class EdgeDijkstra;
+
 /// Of any order; NaN of none.
 [[nodiscard]] double median(std::vector<double> values);
 
