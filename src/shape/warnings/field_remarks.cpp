@@ -14,6 +14,7 @@
 #include "shape/spelling.hpp"
 #include "shape/warnings/bent_crossings.hpp"
 #include "shape/warnings/rim_detours.hpp"
+#include "shape/warnings/scattered_rims.hpp"
 #include "shape/warnings/survey.hpp"
 #include "shape/warnings/violations.hpp"
 #include "shape/words.hpp"
@@ -310,6 +311,30 @@ double largest(const AnyField& field) {
 
 }  // namespace
 
+namespace {
+
+// A rim that is known to some spacings only, if that matters at the field's size.
+std::string rims_sentence(const AnyDomain& solver, double farthest) {
+  constexpr double spacings = 4, share = 0.05;
+  const CloudSummary* const cloud = solver.cloud();
+  if (cloud == nullptr || spacings * cloud->mean_spacing < share * farthest) return "";
+  const ScatteredRims rims = with_complex(solver, [&]<class C>(const C& complex) {
+    if constexpr (C::kind == DomainKind::cloud)
+      return scattered_rims(*solver.shape().cloud(), complex);
+    else
+      return ScatteredRims();
+  });
+  if (rims.points == 0) return "";
+  return "the points are scattered as by chance, and paths bend around corners of their rim (" +
+         std::to_string(rims.first) +
+         " is the first of their points): where it runs is known to some spacings alone, of " +
+         short_number(cloud->mean_spacing) +
+         " each, and distances behind it may be off by four; points along the rim help, or evenly "
+         "spaced ones";
+}
+
+}  // namespace
+
 std::vector<Remark> field_remarks(const AnyDomain& solver, const AnyField& field,
                                   const SourceList& sources, Reader reader) {
   std::vector<Remark> remarks;
@@ -332,6 +357,8 @@ std::vector<Remark> field_remarks(const AnyDomain& solver, const AnyField& field
              "around a notch in its rim or a void; that is too far if the surface does not end "
              "there, and more points there help");
   }
+  if (std::string rims = rims_sentence(solver, largest(field)); !rims.empty())
+    remark(std::move(rims));
   if (const std::size_t edges = are_several(sources) ? solid_bends(solver).edges : 0; edges > 0)
     remark(
         "ways from several sources bend around " + counted(edges, "edges") +
