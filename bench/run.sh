@@ -31,6 +31,7 @@ if [ "${QUICK:-0}" = 1 ]; then
   solid_sizes="--sizes 8 --sources 2 --repeats 1 --budget 1"
   gl="--sizes 10000 --batch 8 --repeats 1"
   wires="--size 0.1 --sources 2 --repeats 1 --budget 1"
+  many="--sides 50 --repeats 1"
   teams="--vertices 20000 --batch 8 --batch-vertices 5000 --repeats 1 --sizes 5000 --chunks 128"
 else
   effort="--sources 16 --repeats 3"
@@ -43,6 +44,7 @@ else
   curves=
   solid_sizes="--sizes 12,26,70"
   wires=""
+  many=""
   teams=""
   gl="--sizes 50000,1000000"
 fi
@@ -105,6 +107,7 @@ peers=$bin/bench_cgal
   run scale_shuffled "$bin/bench" scale --shuffle $scale
   run refinement "$bin/bench" refinement --parts 100,400,800
   run strips "$bin/bench" strips
+  run many_sources "$bin/bench" many_sources $many
   solids=
   [ -z "$data" ] || [ ! -d "$data/../solids" ] || solids=$data/../solids
   run solids "$bin/bench" solids $solids $solid_sizes
