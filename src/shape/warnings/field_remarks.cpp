@@ -9,6 +9,7 @@
 #include <plexway/cloud/point_cloud.hpp>
 #include <plexway/shape/complex.hpp>
 
+#include "complexes/simplicial/simplex_notches.hpp"
 #include "shape/cloud_words.hpp"
 #include "shape/collapsed.hpp"
 #include "shape/spelling.hpp"
@@ -92,8 +93,9 @@ std::vector<bool> used_in(const AnyShape& domain) {
 std::string solid_sentence(const AnyDomain& solver) {
   if (solver.kind() != DomainKind::solid && solver.kind() != DomainKind::simplices) return "";
   return with_complex(solver, []<class C>(const C& complex) -> std::string {
-    if constexpr (C::kind == DomainKind::simplices) {
-      if (const std::size_t notches = complex.summary().notches; notches > 0)
+    if constexpr (C::kind == DomainKind::simplices && C::dimension > 1) {
+      const std::size_t notches = complex.summary().flat ? 0 : count_notches(complex);
+      if (notches > 0)
         return "paths bend around " +
                counted(notches, C::dimension == 2   ? "corners"
                                 : C::dimension == 3 ? "edges"
