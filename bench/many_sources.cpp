@@ -48,40 +48,46 @@ std::vector<double> lines_to(const Grid& grid, const std::vector<Index>& sources
   return least;
 }
 
+template <class Real>
+void measure(const plexway::TriangleMesh<Real>& mesh, const std::vector<Index>& from,
+             const std::vector<double>& truth, const std::string& accuracy, std::size_t repeats,
+             Row& row) {
+  std::vector<plexway::PointSource> sources;
+  for (const Index v : from) sources.push_back(plexway::PointSource::at(v));
+  Solver solver(mesh);
+  double least = std::numeric_limits<double>::infinity(), worst = 0;
+  for (std::size_t k = 0; k < repeats; ++k)
+    least =
+        std::min(least, processor_seconds([&] { solver.solve(sources, by_accuracy(accuracy)); }));
+  for (std::size_t v = 0; v < truth.size(); ++v)
+    if (truth[v] > 0)
+      worst = std::max(worst, std::abs(static_cast<double>(solver.distance()[v]) / truth[v] - 1));
+  row[accuracy] = 1e9 * least / static_cast<double>(truth.size());
+  row[accuracy + "_max"] = worst;
+}
+
 void run(Arguments& arguments) {
   std::vector<Index> sides = {200, 400};
   std::vector<std::size_t> counts = {1, 10, 100, 1000, 0};
   std::size_t repeats = 3;
-  const std::vector<std::string> accuracies = {"fast", "accurate", "exact"};
   arguments.option("--sides", &sides, "Vertices along a side of the grid");
   arguments.option("--counts", &counts, "Sources; 0 is a whole side");
   arguments.positive("--repeats", &repeats, "Of each the least time counts");
   Table& table = arguments.table(
       "side; sources; fast: fast, ns/V %.0f; fast_max: worst %.1e; accurate: accurate, ns/V %.0f;"
-      "accurate_max: worst %.1e; exact: exact, ns/V %.0f; exact_max: worst %.1e");
+      "accurate_max: worst %.1e; exact: exact, ns/V (double) %.0f; exact_max: worst %.1e");
   for (const Index side : sides) {
     const Grid grid(side);
-    const plexway::TriangleMesh<float> mesh(grid.positions, grid.faces);
+    const plexway::TriangleMesh<float> single(grid.positions, grid.faces);
+    const plexway::TriangleMesh<double> twice(grid.positions, grid.faces);
     for (const std::size_t count : counts) {
       const std::vector<Index> from = sources_on(grid, count);
       const std::vector<double> truth = lines_to(grid, from);
-      std::vector<plexway::PointSource> sources;
-      for (const Index v : from) sources.push_back(plexway::PointSource::at(v));
       Row row = {{"side", side}};
       row["sources"] = count == 0 ? Value("a side") : Value(count);
-      for (const std::string& accuracy : accuracies) {
-        Solver solver(mesh);
-        const plexway::PropagateOptions options = by_accuracy(accuracy);
-        double least = std::numeric_limits<double>::infinity(), worst = 0;
-        for (std::size_t k = 0; k < repeats; ++k)
-          least = std::min(least, processor_seconds([&] { solver.solve(sources, options); }));
-        for (std::size_t v = 0; v < truth.size(); ++v)
-          if (truth[v] > 0)
-            worst =
-                std::max(worst, std::abs(static_cast<double>(solver.distance()[v]) / truth[v] - 1));
-        row[accuracy] = 1e9 * least / static_cast<double>(truth.size());
-        row[accuracy + "_max"] = worst;
-      }
+      measure(single, from, truth, "fast", repeats, row);
+      measure(single, from, truth, "accurate", repeats, row);
+      measure(twice, from, truth, "exact", repeats, row);
       table.add(row);
     }
   }
