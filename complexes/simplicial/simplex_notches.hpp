@@ -5,10 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <span>
 #include <vector>
 
-#include <plexway/simplicial/detail/simplex_record.hpp>
+#include <plexway/simplicial/simplicial_complex.hpp>
 
 namespace plexway {
 
@@ -54,17 +53,19 @@ std::array<std::array<double, N + 1>, N + 1> facet_angles(const SimplexRecord<Re
   return angle;
 }
 
-/// How many faces of codimension 2 lie on the boundary and have more than pi + `notch` of the
-/// complex around them: there paths bend. Where several parts touch in one face it is none.
+/// How many faces of dimension N - 2 lie on the boundary and have clearly more than pi of the
+/// complex around them: there paths bend. Where several parts touch in one face it is none. Cost:
+/// O(n log n).
 template <class Real, int N>
-std::size_t count_notches(std::span<const SimplexRecord<Real, N>> records, std::size_t vertices,
-                          double notch) {
+std::size_t count_notches(const SimplicialComplex<Real, N>& complex) {
+  constexpr double notch = 0.25;  // more than a metric that varies bends a flat boundary
+  const auto records = complex.records();
   struct Wedge {
     std::array<Index, N - 1> face;
     double angle;
     int sides;  // on the boundary
   };
-  std::vector<char> outer(vertices, 0);
+  std::vector<char> outer(complex.vertex_count(), 0);
   for (const auto& record : records)
     for (std::size_t i = 0; i <= N; ++i)
       for (std::size_t k = 0; k <= N; ++k)

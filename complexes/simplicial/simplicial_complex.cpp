@@ -16,7 +16,6 @@
 #include "complexes/common/one_length.hpp"
 #include "complexes/common/simplex_gluing.hpp"
 #include "complexes/simplicial/simplex_flat.hpp"
-#include "complexes/simplicial/simplex_notches.hpp"
 #include "complexes/simplicial/simplex_shape.hpp"
 
 namespace plexway {
@@ -126,7 +125,6 @@ SimplicialComplex<Real, N>::SimplicialComplex(std::size_t vertices,
   std::vector<Lengths> agreed(lengths.begin(), lengths.end());
   agree_on_edges<N>(simplices, agreed);
   assemble(vertices, simplices, std::move(agreed));
-  find_notches();
 }
 
 template <class Real, int N>
@@ -158,13 +156,7 @@ SimplicialComplex<Real, N>::SimplicialComplex(std::span<const double> positions,
   assemble(positions.size() / axes, simplices, std::move(lengths));
   if constexpr (N > 1)
     if (axes == N && summary_.fan_facets == 0) lay_flat(positions);
-  if (N > 1 && !summary_.flat) keep_coordinates(positions, axes), find_notches();
-}
-
-template <class Real, int N>
-void SimplicialComplex<Real, N>::find_notches() {
-  if constexpr (N > 1)
-    summary_.notches = count_notches<Real, N>(records_, vertex_count(), SimplicialSummary::notch);
+  if (N > 1 && !summary_.flat) keep_coordinates(positions, axes);
 }
 
 template <class Real, int N>

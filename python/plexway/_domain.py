@@ -101,7 +101,7 @@ class Domain:
     @property
     def simplices(self) -> Optional[Array]:
         """Vertices of each simplex: uint32, shape (m, corners), read only and no copy; with a mask
-        those that are left. None for clouds and mixed domains."""
+        those that are left, and of merged vertices the first. None for clouds and mixed domains."""
         simplices: Optional[Array] = self._native.simplices
         return simplices
 
@@ -133,7 +133,8 @@ class Domain:
             kind, dimension, vertices, simplices, components, precision, bytes (held beside the
             positions), build_seconds, and where they mean something: file, bounds, mean_edge,
             triangulation, refracting_edges, violations (simplices whose lengths no flat one has),
-            cloud; and dropped_simplices (with a vertex twice: domains are built without), of files
+            cloud; and dropped_simplices (with a vertex twice: domains are built without) and
+            merged_vertices (which are one with an earlier one), of files
             also split_polygons and split_cells, cut into triangles and tetrahedra, and passed_over.
         """
         native = self._native
@@ -879,6 +880,7 @@ class Domain:
             "triangulation": native.wanted_triangulation,
             "metric": metric,
             "mask": native.mask,
+            "merge": native.merge,
             "progress": None,
         }
 

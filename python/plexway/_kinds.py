@@ -51,6 +51,7 @@ class _OfSimplices(Domain):
         vertices: Optional[int],
         metric: Any,
         mask: Any,
+        merge: Optional[float],
         precision: str,
         triangulation: str,
         progress: ProgressLike,
@@ -82,6 +83,7 @@ class _OfSimplices(Domain):
                 vertices,
                 rows,
                 lengths,
+                merge=None if merge is None else real(merge, "merge"),
                 **_options_of(precision, triangulation, metric, report, mask),
             )
         warn(self._native.doubts)
@@ -110,6 +112,9 @@ class Surface(_OfSimplices):
         that are left out, 'FILE:3,7', of a file that gives each vertex one (see `read_labels`); or
         numbers in a file, 'vertices:FILE' and 'simplices:FILE'. Numbers of vertices and triangles
         stay, and a metric measures all of them.
+    merge : float, optional
+        Vertices no farther apart than this are one: the sides of a seam, or triangles with corners
+        of their own. All keep their numbers and get their distances; 0 joins those at one place.
     precision : {'single', 'double'}
     triangulation : {'auto', 'input', 'delaunay', 'refined'}
         Which triangles over the same surface distances are found on.
@@ -134,11 +139,12 @@ class Surface(_OfSimplices):
         vertices: Optional[int] = None,
         metric: Any = None,
         mask: Union[None, str, ArrayLike] = None,
+        merge: Optional[float] = None,
         precision: str = "single",
         triangulation: str = "auto",
         progress: ProgressLike = None,
     ) -> None:
-        self._build(V, F, lengths, vertices, metric, mask, precision, triangulation, progress)
+        self._build(V, F, lengths, vertices, metric, mask, merge, precision, triangulation, progress)
 
 
 class Solid(_OfSimplices):
@@ -151,7 +157,7 @@ class Solid(_OfSimplices):
     T : array_like of int, shape (m, 4)
     lengths : array_like of float, shape (m, 6), optional
         In the place of `V`: of the edges (0,1), (0,2), (1,2), (0,3), (1,3), (2,3).
-    vertices, metric, mask, precision, progress
+    vertices, metric, mask, merge, precision, progress
         As in `Surface`.
     """
 
@@ -166,10 +172,11 @@ class Solid(_OfSimplices):
         vertices: Optional[int] = None,
         metric: Any = None,
         mask: Union[None, str, ArrayLike] = None,
+        merge: Optional[float] = None,
         precision: str = "single",
         progress: ProgressLike = None,
     ) -> None:
-        self._build(V, T, lengths, vertices, metric, mask, precision, "auto", progress)
+        self._build(V, T, lengths, vertices, metric, mask, merge, precision, "auto", progress)
 
 
 class Wireframe(_OfSimplices):
@@ -182,7 +189,7 @@ class Wireframe(_OfSimplices):
     E : array_like of int, shape (m, 2)
     lengths : array_like of float, shape (m,), optional
         In the place of `V`.
-    vertices, metric, mask, precision, progress
+    vertices, metric, mask, merge, precision, progress
         As in `Surface`.
     """
 
@@ -197,10 +204,11 @@ class Wireframe(_OfSimplices):
         vertices: Optional[int] = None,
         metric: Any = None,
         mask: Union[None, str, ArrayLike] = None,
+        merge: Optional[float] = None,
         precision: str = "single",
         progress: ProgressLike = None,
     ) -> None:
-        self._build(V, E, lengths, vertices, metric, mask, precision, "auto", progress)
+        self._build(V, E, lengths, vertices, metric, mask, merge, precision, "auto", progress)
 
 
 class Cloud(Domain):

@@ -67,7 +67,8 @@ def read(
     **options
         Of clouds: k, neighbour_radius, max_normal_angle, smooth, denoise, deviations, voxel. Of
         surfaces that are filled: max_volume. Of level sets: voxel, grid, repair. Of all: strict, to
-        refuse what would be left out, guessed or repaired, such as a face with a corner twice.
+        refuse what would be left out, guessed or repaired, such as a face with a corner twice. Of
+        surfaces, solids and wireframes: merge, as in `Surface`.
 
     Returns
     -------
@@ -81,7 +82,7 @@ def read(
     NotBuilt
         For a format that this build has no library for.
     """
-    known = "k neighbour_radius max_normal_angle smooth denoise deviations voxel grid repair strict"
+    known = "k neighbour_radius max_normal_angle smooth denoise deviations voxel grid repair strict merge"
     if not files:
         raise TypeError("read: no file was given")
     for name in options:

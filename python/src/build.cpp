@@ -206,7 +206,9 @@ std::shared_ptr<Domain> from_arrays(const std::string& kind, const py::object& p
     if (lengths.is_none()) return AnyShape::wireframe(points_of(positions, "V"), std::move(rows));
     return AnyShape::wireframe(vertices, std::move(rows), numbers_of(lengths, "lengths"));
   };
-  return build(make(), arguments);
+  const AnyShape made = make();
+  const py::object merge = given["merge"];
+  return build(merge.is_none() ? made : made.merged(merge.cast<double>()), arguments);
 }
 
 std::shared_ptr<Domain> from_simplices(const py::object& positions, std::size_t vertices,
@@ -288,6 +290,7 @@ std::shared_ptr<Domain> read(const std::vector<std::filesystem::path>& files, do
   if (given.contains("voxel")) reading.volume.voxel = given["voxel"].cast<std::optional<double>>();
   if (given.contains("repair")) reading.volume.repair = given["repair"].cast<bool>();
   if (given.contains("strict")) reading.strict = given["strict"].cast<bool>();
+  if (given.contains("merge")) reading.merge = given["merge"].cast<std::optional<double>>();
   if (given.contains("grid")) reading.volume.grid = given["grid"].cast<std::string>();
   if (given.contains("max_volume")) reading.fill.max_volume = given["max_volume"].cast<double>();
   reading.progress.share = watch.of_share();

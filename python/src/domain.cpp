@@ -269,6 +269,7 @@ void bind_domain(py::module_& module) {
                                told["split_polygons"] = report.split_polygons;
                                told["split_cells"] = report.split_cells;
                                told["dropped_simplices"] = d.shape().collapsed().size();
+                               told["merged_vertices"] = d.shape().merged_count();
                                for (const auto& [what, count] : report.passed_over)
                                  passed_over[what.c_str()] = count;
                                told["passed_over"] = passed_over;
@@ -287,6 +288,12 @@ void bind_domain(py::module_& module) {
           "all_simplices",
           [](const std::shared_ptr<Domain>& d) { return simplices(d->shape(), py::cast(d)); })
       .def_property_readonly("mask", &given_mask)
+      .def_property_readonly("merge",  // None where no vertices were merged
+                             [](const Domain& d) {
+                               const bool any = !d.shape().merged_vertices().empty();
+                               return any ? std::optional(d.shape().merge_tolerance())
+                                          : std::nullopt;
+                             })
       .def_property_readonly("lengths", &given_lengths)
       .def_property_readonly("parts", &parts)
       .def_property_readonly("cloud", &cloud)

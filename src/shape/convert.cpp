@@ -46,7 +46,8 @@ class Conversion : public Converted {
   void cloud() {
     stage("reading " + input_);
     const VolumeOptions& volume = options_.volume;
-    if (options_.fill.given() || volume.repair || volume.voxel || !volume.grid.empty())
+    if (options_.fill.given() || volume.repair || volume.voxel || !volume.grid.empty() ||
+        options_.merge)
       require(input_,
               support(Reading::voxel,
                       {.held = DomainKind::cloud, .wanted = DomainKind::cloud, .copied = true}));

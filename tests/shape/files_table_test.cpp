@@ -95,6 +95,9 @@ ReadOptions asking(Reading reading, ReadOptions options) {
     case Reading::grid:
       options.volume.grid = "surface";
       break;
+    case Reading::merging:
+      options.merge = 0;
+      break;
     case Reading::kind:
     case Reading::joining:
       break;
@@ -125,8 +128,9 @@ TEST_CASE("what may be asked for as a file is read") {
   for (const TestFile& file : all_files(folder))
     for (const DomainKind wanted : {DomainKind::surface, DomainKind::solid, DomainKind::wireframe,
                                     DomainKind::simplices, DomainKind::cloud, DomainKind::mixed})
-      for (const Reading reading : {Reading::kind, Reading::connecting, Reading::filling,
-                                    Reading::repair, Reading::voxel, Reading::grid}) {
+      for (const Reading reading :
+           {Reading::kind, Reading::connecting, Reading::filling, Reading::repair, Reading::voxel,
+            Reading::grid, Reading::merging}) {
         // As mixed, a file of cells is read as one, and the others by the reader of their kind.
         const bool natural = wanted == file.held;
         ReadOptions options;
@@ -177,8 +181,8 @@ TEST_CASE("what may be asked for as several files are read, and which they may b
       CHECK_THROWS_WITH(AnyShape::read(both, 1e-9), EndsWith(found.sentence()));
   }
   const std::array<std::filesystem::path, 2> twice = {solid, solid};
-  for (const Reading reading :
-       {Reading::connecting, Reading::filling, Reading::repair, Reading::voxel, Reading::grid})
+  for (const Reading reading : {Reading::connecting, Reading::filling, Reading::repair,
+                                Reading::voxel, Reading::grid, Reading::merging})
     CHECK_THROWS_WITH(AnyShape::read(twice, 0, asking(reading, {})),
                       EndsWith(Support(Refusal::several_files).sentence()));
   for (const Spelling spelling : {Spelling::fields, Spelling::flags}) {
@@ -206,7 +210,7 @@ TEST_CASE("points that are converted are copied") {
   const std::string in = folder.write("a.xyz", "0 0 0\n1 0 0\n0 1 0\n").string();
   const std::string out = folder.at("b.xyz").string();
   CHECK(convert(in, out, {}).vertices == 3);
-  for (const Reading reading : {Reading::filling, Reading::voxel, Reading::grid})
+  for (const Reading reading : {Reading::filling, Reading::voxel, Reading::grid, Reading::merging})
     CHECK_THROWS_WITH(convert(in, out, asking(reading, {})),
                       EndsWith(Support(Refusal::copied_points).sentence()));
 }

@@ -79,6 +79,7 @@ TEST_CASE("a point beside the domain is no matter, one far away is noted") {
   CHECK(note({"distance", "-s", "circle:0,0,100,0.1"}));
   CHECK(note({"path", "--from", "vertex:0", "--to", "point:0,0,100"}));
   CHECK(note({"pairs", "-s", "vertex:0", "-s", "point:0,0,100"}));
+  CHECK(note({"farthest", "--count", "2", "-s", "point:0,0,100"}));
   const auto found = run_tool({"path", torus, "--from", "vertex:0", "--to", "vertex:9", "-o", "-"});
   const auto at = nlohmann::json::parse(found.out)["paths"][0]["points"][0];
   if (at.is_array() && at.size() == 3) {
@@ -89,9 +90,21 @@ TEST_CASE("a point beside the domain is no matter, one far away is noted") {
 
 TEST_CASE("twins in a soup are named where they keep parts apart") {
   const Folder folder;
-  const auto run = run_tool({"distance", folder.write("s.off", soup).string(), "-s", "vertex:0"});
+  const std::string file = folder.write("s.off", soup).string();
+  const auto run = run_tool({"distance", file, "-s", "vertex:0"});
   REQUIRE(run.code == 0);
-  CHECK_THAT(run.err, Contains("2 components, and 4 vertices lie exactly where another does"));
+  CHECK_THAT(run.err, Contains("2 components, and 4 vertices lie exactly where another does; "
+                               "--merge 0 joins them"));
+  const auto info = run_tool({"info", file});
+  CHECK_THAT(info.out, Contains("4 vertices exactly where another one lies"));
+  CHECK_THAT(info.out, Contains("--merge 0 joins them"));
+  const auto merged = run_tool({"distance", file, "-s", "vertex:0", "--merge", "0", "--json"});
+  CHECK(merged.json()["merged_vertices"] == 2);
+  CHECK(merged.json()["reached"] == merged.json()["vertices"]);
+  CHECK(merged.json()["notes"].empty());
+  const auto wrong = run_tool({"distance", file, "-s", "vertex:0", "--merge=-1"});
+  CHECK(wrong.code == 2);
+  CHECK_THAT(wrong.err, Contains("--merge must be a number >= 0"));
 }
 
 TEST_CASE("a vertex far off is blamed, not the faces beside it") {

@@ -65,6 +65,46 @@ TEST_CASE("a face with a corner twice is left out and counted, and numbers stay"
   CHECK(run_tool({"distance", kept, "-s", "vertex:0", "--json"}).json()["simplices"] == 2);
 }
 
+TEST_CASE("samples of a surface with such faces lie where they do without") {
+  const Folder folder;
+  std::string vertices, faces;
+  constexpr int n = 8;
+  for (int v = 0; v < n * n; ++v)
+    vertices += "v " + std::to_string(v % n) + " " + std::to_string(v / n) + " 0\n";
+  for (int v = 1; v < n * n - n; ++v)
+    if (v % n != 0)
+      faces += "f " + std::to_string(v) + " " + std::to_string(v + 1) + " " +
+               std::to_string(v + n + 1) + "\nf " + std::to_string(v) + " " +
+               std::to_string(v + n + 1) + " " + std::to_string(v + n) + "\n";
+  const std::string whole = folder.write("whole.obj", vertices + faces).string(),
+                    dropped = folder.write("dropped.obj", vertices + "f 1 1 2\nf 3 3 3\n" + faces)
+                                  .string();
+  const std::vector<std::vector<std::string>> commands = {
+      {"poisson", "--radius", "1.5", "--seed", "3"},
+      {"farthest", "--count", "5", "-s", "point:3.4,2.2,0"},
+      {"cvt", "--count", "6", "--iterations", "3"}};
+  for (const auto& command : commands) {
+    const auto points = [&](const std::string& file) {
+      std::vector<std::string> all = {command[0], file};
+      all.insert(all.end(), command.begin() + 1, command.end());
+      all.insert(all.end(), {"-q", "-o", "-"});
+      const auto run = run_tool(all);
+      CAPTURE(run.err);
+      REQUIRE(run.code == 0);
+      return run.out;
+    };
+    const std::string one = points(whole), other = points(dropped);
+    CAPTURE(command[0]);
+    CHECK(csv_column(one, "x") == csv_column(other, "x"));
+    CHECK(csv_column(one, "y") == csv_column(other, "y"));
+    CHECK(csv_column(one, "b0") == csv_column(other, "b0"));
+    const auto number = csv_column(one, "simplex"), behind = csv_column(other, "simplex");
+    REQUIRE(number.size() == behind.size());
+    for (std::size_t k = 0; k < number.size(); ++k)
+      CHECK(behind[k] == (number[k] < 0 ? number[k] : number[k] + 2));
+  }
+}
+
 TEST_CASE("solids, simplices and mixed domains leave such cells out as well") {
   const Folder folder;
   const std::string medit =

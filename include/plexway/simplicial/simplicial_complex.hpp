@@ -33,11 +33,7 @@ struct SimplicialSummary {
   std::size_t components = 0;             ///< of simplices joined by vertices
   bool flat = false;              ///< lies in R^N, N its dimension, and does not overlap itself
   std::size_t bending_faces = 0;  ///< if so: where paths around obstacles bend
-  /// If not: faces of dimension N - 2 on the boundary with more than pi + `notch` of the complex
-  /// around them. Paths bend there, which the plain step does not know.
-  std::size_t notches = 0;
-  static constexpr double notch = 0.25;  ///< more than a metric that varies bends a flat boundary
-  double mean_edge = 0;  ///< in the input's unit; the library works in this unit inside
+  double mean_edge = 0;           ///< in the input's unit; the library works in this unit inside
 };
 
 /// A domain of dimension N = 1 to 4 as a metric space: N-simplices with edge lengths, glued where
@@ -144,7 +140,6 @@ class SimplicialComplex {
                 std::vector<Lengths> lengths);
   void find_stars(std::size_t vertices);
   void lay_flat(std::span<const double> positions);
-  void find_notches();
   void keep_coordinates(std::span<const double> positions, std::size_t axes);
 
   SimplicialSummary summary_;

@@ -9,10 +9,12 @@
 #include <plexway/cloud/point_cloud.hpp>
 #include <plexway/shape/complex.hpp>
 
+#include "complexes/simplicial/simplex_notches.hpp"
 #include "shape/collapsed.hpp"
 #include "shape/spelling.hpp"
 #include "shape/warnings/bent_crossings.hpp"
 #include "shape/warnings/rim_detours.hpp"
+#include "shape/warnings/scattered_rims.hpp"
 #include "shape/warnings/survey.hpp"
 #include "shape/warnings/violations.hpp"
 #include "shape/words.hpp"
@@ -90,8 +92,9 @@ std::vector<bool> used_in(const AnyShape& domain) {
 std::string solid_sentence(const AnyDomain& solver) {
   if (solver.kind() != DomainKind::solid && solver.kind() != DomainKind::simplices) return "";
   return with_complex(solver, []<class C>(const C& complex) -> std::string {
-    if constexpr (C::kind == DomainKind::simplices) {
-      if (const std::size_t notches = complex.summary().notches; notches > 0)
+    if constexpr (C::kind == DomainKind::simplices && C::dimension > 1) {
+      const std::size_t notches = complex.summary().flat ? 0 : count_notches(complex);
+      if (notches > 0)
         return "paths bend around " +
                counted(notches, C::dimension == 2   ? "corners"
                                 : C::dimension == 3 ? "edges"
@@ -311,6 +314,30 @@ double largest(const AnyField& field) {
 
 }  // namespace
 
+namespace {
+
+// A rim that is known to some spacings only, if that matters at the field's size.
+std::string rims_sentence(const AnyDomain& solver, double farthest) {
+  constexpr double spacings = 4, share = 0.05;
+  const CloudSummary* const cloud = solver.cloud();
+  if (cloud == nullptr || spacings * cloud->mean_spacing < share * farthest) return "";
+  const ScatteredRims rims = with_complex(solver, [&]<class C>(const C& complex) {
+    if constexpr (C::kind == DomainKind::cloud)
+      return scattered_rims(*solver.shape().cloud(), complex);
+    else
+      return ScatteredRims();
+  });
+  if (rims.points == 0) return "";
+  return "the points are scattered as by chance, and paths bend around corners of their rim (" +
+         std::to_string(rims.first) +
+         " is the first of their points): where it runs is known to some spacings alone, of " +
+         short_number(cloud->mean_spacing) +
+         " each, and distances behind it may be off by four; points along the rim help, or evenly "
+         "spaced ones";
+}
+
+}  // namespace
+
 std::vector<Warning> field_warnings(const AnyDomain& solver, const AnyField& field,
                                     const SourceList& sources, Reader reader) {
   std::vector<Warning> warnings;
@@ -333,6 +360,8 @@ std::vector<Warning> field_warnings(const AnyDomain& solver, const AnyField& fie
               "around a notch in its rim or a void; that is too far if the surface does not end "
               "there, and more points there help");
   }
+  if (std::string rims = rims_sentence(solver, largest(field)); !rims.empty())
+    warning(std::move(rims));
   if (const std::size_t edges = are_several(sources) ? solid_bends(solver).edges : 0; edges > 0)
     warning(
         "paths from several sources bend around " + counted(edges, "edges") +

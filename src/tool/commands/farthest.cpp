@@ -3,6 +3,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -75,6 +76,7 @@ void run_farthest(const FarthestCommand& command) {
   summary.json["covering"] = json_number(found.covering);
   summary.table.add("covering", "no vertex is farther than " + short_number(found.covering));
   report_picture(command.picture, domain, summary.json, summary.table);
+  for (std::string& far : far_notes(domain, arguments, start)) notes.add(std::move(far));
   add_parts_without(notes, domain, found.points, "points");
   summary.finish(command, found.statistics, phases, notes);
 }
