@@ -190,7 +190,7 @@ void skip_property(Source& source, const PlyProperty& property) {
 }
 
 /// Walks over all elements. `begin(element)` is called for each whose count its bytes can hold, and
-/// `read(element, i, property)` is requested every property of instance i: it takes the value and
+/// `read(element, i, property)` is called for every property of instance i: it takes the value and
 /// says true, or leaves it and says false.
 template <class Source, class Begin, class Read>
 void walk_ply(Source& source, const PlyHeader& header, Begin begin, Read read) {
