@@ -1,4 +1,4 @@
-# A provider (floor 4) builds a complex with the help of another library and hides that library's
+# A provider (layer 4) builds a complex with the help of another library and hides that library's
 # headers in its .cpp files. It is an optional component, ruled by PLEXWAY_WITH_<NAME>:
 # ON fails when the library is missing, AUTO leaves the provider out and says so, OFF never looks.
 

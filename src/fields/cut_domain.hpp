@@ -16,7 +16,7 @@
 
 namespace plexway {
 
-/// A domain whose edges are no longer than asked for: itself, or a copy of all or of a part of it,
+/// A domain whose edges are no longer than requested: itself, or a copy of all or of a part of it,
 /// cut into smaller simplices. Numbers are those inside.
 template <class Complex>
 struct CutDomain {

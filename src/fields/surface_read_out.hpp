@@ -27,7 +27,7 @@ class SurfaceReadOut {
 
   [[nodiscard]] double at(Index f, const std::array<double, 3>& weight, ReadOut level) const;
   /// Where the straight line from a point of f, not on the rim, back to the source leads: a place
-  /// in f, which is the point itself where the source is there. Nothing where no path leads.
+  /// in f, which is the point itself where the source is there. Nothing where unreachable.
   [[nodiscard]] std::optional<std::array<double, 3>> towards(
       Index f, const std::array<double, 3>& weight) const;
 

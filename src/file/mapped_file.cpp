@@ -14,7 +14,7 @@
 namespace plexway::file {
 namespace {
 
-// No fault for each few pages, as all of them are read soon; and what is asked for ahead is there.
+// No fault for each few pages, as all of them are read soon; and what is fetched ahead is there.
 #ifdef MAP_POPULATE
 constexpr int all_at_once = MAP_POPULATE;
 #else

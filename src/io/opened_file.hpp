@@ -10,7 +10,7 @@
 
 namespace plexway::io {
 
-/// A file to be read: its bytes, when they are asked for, and unpacked where they are gzip's.
+/// A file to be read: its bytes, when they are requested, and unpacked where they are gzip's.
 class OpenedFile {
  public:
   explicit OpenedFile(const std::filesystem::path& file);

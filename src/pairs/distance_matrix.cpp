@@ -101,7 +101,7 @@ DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points
       });
 }
 
-// By windows or strings; `given` is what was asked for, `accuracy` what it comes to.
+// By windows or strings; `given` is what was requested, `accuracy` what it comes to.
 template <class Complex>
 DistanceMatrix field_matrix(const Complex& domain, std::span<const PointSource> points,
                             const std::function<bool(double)>& progress, Accuracy given,

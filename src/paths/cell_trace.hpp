@@ -40,7 +40,7 @@ std::vector<double> cell_distances(const Cells& cells, std::span<const Real> fie
 Path trace_cells(const CellField& field, const PointSource& point);
 
 /// The distance of a point: the length of its path, but inside of a cell none longer than by a
-/// corner. +inf where no path leads.
+/// corner. +inf where unreachable.
 double read_cells(const CellField& field, const PointSource& point, ReadOut level);
 
 }  // namespace plexway

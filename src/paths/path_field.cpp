@@ -113,7 +113,7 @@ double linear_in(const TriangleMesh<Real>& mesh, std::span<const Index> outer,
 }
 
 /// The middle of a triangle of the input, as a point of one of `mesh`, not on its rim, where the
-/// way back is not told from others. Numbers inside.
+/// way back is not distinguished from others. Numbers inside.
 template <class Real>
 std::pair<Index, std::array<double, 3>> middle(const TriangleMesh<Real>& mesh,
                                                const IntrinsicDelaunay* delaunay, Index simplex) {

@@ -26,9 +26,10 @@ class StringPaths {
   [[nodiscard]] Path trace(const PointSource& point) const;
   /// In the solid's unit.
   [[nodiscard]] double at(Index t, const std::array<double, 4>& weight, ReadOut level) const;
-  /// Unit direction away from the source at the centre; 0 where that is there, or no path leads.
+  /// Unit direction away from the source at the centre; 0 where that is there, or it is
+  /// unreachable.
   [[nodiscard]] std::array<double, 3> gradient(Index t) const;
-  /// The nearest source to the centre; none where no path leads.
+  /// The nearest source to the centre; none where unreachable.
   [[nodiscard]] Index source(Index t) const;
 
  private:

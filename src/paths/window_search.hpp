@@ -75,7 +75,7 @@ struct WindowGoal {
 template <class Real>
 class WindowSearch {
  public:
-  /// `left(v)`: roughly how far vertex v (inside) is from the goals; +inf where no path leads.
+  /// `left(v)`: roughly how far vertex v (inside) is from the goals; +inf where unreachable.
   /// Lengths in the unit of `shape`.
   WindowSearch(const TriangleMesh<Real>& mesh, const SurfaceShape<Real>& shape,
                std::function<double(Index)> left, std::span<const WindowGoal> goals);
@@ -97,7 +97,7 @@ class WindowSearch {
   struct Vertex {
     double distance = 0, left = 0;
     Index arrival = none;
-    signed char bends = -1;  // may a path bend here? -1: nobody asked
+    signed char bends = -1;  // may a path bend here? -1: not looked at yet
   };
   /// A way to a vertex that was the shortest when it was found.
   struct Arrival {

@@ -214,7 +214,7 @@ void add_discs(Batch& batch, const Part& part, const Making& making) {
         const double rise = dot(part.slope[i], v.normal) * radius / making.frame.scale;
         if (std::isfinite(rise)) v.value += rise;
       }
-      // A little round, so that single discs can be told apart.
+      // A little round, so that single discs can be distinguished.
       v.normal = unit(plus(v.normal, times(bulges ? 0.55 : 3.5, facing)));
       if (bulges) v.position = minus(v.position, times(0.5 * radius, facing));
       return v;

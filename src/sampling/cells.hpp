@@ -94,7 +94,7 @@ class Cells {
 };
 
 /// Of a mixed domain, a surface whose triangles may measure their edges differently, or a solid,
-/// which may have lengths alone; it must outlive them.
+/// which may have intrinsic lengths; it must outlive them.
 template <class Real>
 class ComplexCells final : public Cells {
  public:

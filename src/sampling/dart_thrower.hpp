@@ -46,7 +46,7 @@ class DartThrower {
     std::vector<Dart> earlier;  ///< that are there already
   };
 
-  /// `report(share)` is told how much is covered.
+  /// `report(share)` hears how much is covered.
   template <class Report>
   DartThrower(Field& field, Target target, const PoissonOptions& options, Random& random,
               Report report)

@@ -78,7 +78,7 @@ PoissonDisks poisson(const Complex& domain, std::span<const Index> candidates,
     if (count >= wanted && (best.darts.empty() || found.darts.size() < best.darts.size()))
       best = std::move(found);
     if (!best.darts.empty() && static_cast<double>(best.darts.size()) <= wanted * 1.005) break;
-    // A little below what was asked for, to come out above it.
+    // A little below what was requested, to come out above it.
     radius *= std::pow(count / (wanted * 1.002), 1 / dimension);
     if (!(radius > too_small && radius < too_large))
       radius = too_large < std::numeric_limits<double>::infinity() ? (too_small + too_large) / 2

@@ -12,7 +12,7 @@
 namespace plexway {
 namespace {
 
-// What holds the shape, if a purpose goes together with it.
+// What holds the shape, if it supports a purpose.
 template <class Data>
 const Data& data_for(Purpose purpose, const AnyShape& shape) {
   support(purpose, shape).require();

@@ -15,7 +15,7 @@
 namespace plexway {
 
 /// What a shape holds, where it lies in a prepared file. Who solves on what is built does not need
-/// it, so it is copied only when it is asked for as a whole.
+/// it, so it is copied only when it is requested as a whole.
 class KeptShape {
  public:
   /// Takes the parts of a shape of that kind from `in`. Throws InputError where they cannot be.

@@ -168,7 +168,7 @@ class Prepared : public std::enable_shared_from_this<Prepared> {
 struct AnyDomain::State {
   AnyShape shape;
   std::shared_ptr<const Prepared> prepared;
-  BuildOptions options;  // as asked for, without progress
+  BuildOptions options;  // as requested, without progress
   double build_seconds = 0;
 };
 

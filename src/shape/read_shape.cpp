@@ -76,7 +76,7 @@ std::optional<Data> read_data(const std::string& file, std::optional<DomainKind>
   }
 }
 
-// A .ply is a cloud where it is asked to be one, or where it cannot be anything else: its normals
+// A .ply is a cloud where it is requested as one, or where it cannot be anything else: its normals
 // are wanted then.
 bool is_read_as_cloud(const std::string& file, std::optional<DomainKind> asked) {
   if (is_cloud_file(file)) return true;
@@ -91,7 +91,7 @@ FileForm form_of(const std::string& file) {
                              : FileForm::plain;
 }
 
-// What is asked for as files are read, by the names that the caller knows.
+// What is requested as files are read, by the names that the caller knows.
 class Asked {
  public:
   explicit Asked(const ReadOptions& options) : options_(options) {}
@@ -103,7 +103,7 @@ class Asked {
     return name("as") + " " + std::string(kind_name(kind));
   }
 
-  // What goes together with a file, or several, by the table (shape/support.hpp). In two parts: of
+  // What is supported with a file, or several, by the table (shape/support.hpp). In two parts: of
   // grids the form of a file tells before it is read.
   void check_grid(const FileUse& use) const {
     ask(!options_.volume.grid.empty(), Reading::grid, name("grid"), use);
@@ -184,7 +184,7 @@ void append(Kind data, const std::string& file, MixedShape& shape) {
   shape.parts.push_back(std::move(part));
 }
 
-// Makes a shape of a file; what is asked for is in `options`.
+// Makes a shape of a file; what is requested is in `options`.
 class ShapeFile {
  public:
   ShapeFile(std::string file, const ReadOptions& options)
@@ -291,7 +291,7 @@ AnyShape::State ShapeFile::read() {
   return std::move(state_);
 }
 
-// Nothing may be left out, guessed or mended.
+// Nothing may be left out, guessed or repaired.
 void ShapeFile::require_strict() const {
   std::string cause = state_.report.notes.empty() ? "" : state_.report.notes.front();
   if (!state_.collapsed.empty()) cause = collapsed_sentence(AnyShape::of(state_));

@@ -260,7 +260,7 @@ PLEXWAY_PAGE_CALLS int plexway_solve(const char* accuracy) {
   });
 }
 
-/// One float a vertex, +inf where no path leads.
+/// One float a vertex, +inf where unreachable.
 PLEXWAY_PAGE_CALLS const float* plexway_distance() { return session().distance.data(); }
 /// One a vertex with several sources, else null.
 PLEXWAY_PAGE_CALLS const std::int32_t* plexway_label() {

@@ -104,8 +104,8 @@ class MixedComplex {
   /// Bytes this domain holds.
   [[nodiscard]] std::size_t bytes() const;
 
-  // What follows serves the floors above and uses the numbers inside the pieces.
-  /// @name For the floors above
+  // What follows serves the layers above and uses the numbers inside the pieces.
+  /// @name For the layers above
   ///@{
 
   /// This domain with surfaces that share edges joined to one, and solids that share faces and

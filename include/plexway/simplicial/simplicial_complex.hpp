@@ -104,8 +104,8 @@ class SimplicialComplex {
   /// Bytes this complex holds.
   [[nodiscard]] std::size_t bytes() const;
 
-  // What follows serves the floors above and uses the numbers inside.
-  /// @name For the floors above
+  // What follows serves the layers above and uses the numbers inside.
+  /// @name For the layers above
   ///@{
 
   /// One a simplex, in the order inside.

@@ -101,8 +101,8 @@ class TetMesh {
   /// Bytes this complex holds, with what solves have made of it.
   [[nodiscard]] std::size_t bytes() const;
 
-  // What follows serves the floors above and uses the numbers inside.
-  /// @name For the floors above
+  // What follows serves the layers above and uses the numbers inside.
+  /// @name For the layers above
   ///@{
 
   /// An edge that fans of tetrahedra share without sharing a face at it.

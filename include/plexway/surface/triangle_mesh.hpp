@@ -158,8 +158,8 @@ class TriangleMesh {
   /// Bytes this complex holds.
   [[nodiscard]] std::size_t bytes() const;
 
-  // What follows serves the floors above and uses the numbers inside.
-  /// @name For the floors above
+  // What follows serves the layers above and uses the numbers inside.
+  /// @name For the layers above
   ///@{
 
   /// The records, and one sentinel behind them that stands for "no triangle".

@@ -87,8 +87,8 @@ class Wireframe {
   /// better: d (1 + d / m) / 2, edges without length left out. > 0.
   [[nodiscard]] double typical_edge() const { return typical_edge_; }
 
-  // What follows serves the floors above and uses the numbers inside.
-  /// @name For the floors above
+  // What follows serves the layers above and uses the numbers inside.
+  /// @name For the layers above
   ///@{
 
   /// The arcs of vertex v are those from begin()[v] to begin()[v + 1]. A loop is there once.

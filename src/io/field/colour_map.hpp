@@ -10,7 +10,7 @@ namespace plexway::io {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-/// Of cells, such that neighbours can be told apart.
+/// Of cells, such that neighbours can be distinguished.
 inline constexpr std::array<Rgb, 8> cell_colours = {{{119, 170, 221},
                                                      {238, 136, 102},
                                                      {238, 221, 136},

@@ -40,7 +40,8 @@ std::string journal_header_of(const BlockJournal::Description& description, std:
   return text.append(begin_line);
 }
 
-// Each with its check behind it, so that a line that was written in part is told from a whole one.
+// Each with its check behind it, so that a line that was written in part is distinguished from a
+// whole one.
 std::string line_of(std::size_t block, BlockJournal::Place place) {
   std::string text = std::to_string(block) + " " + std::to_string(place.offset) + " " +
                      std::to_string(place.bytes);

@@ -22,7 +22,7 @@ class Crc32 {
 
 /// A zip archive whose files are stored as they are, of any size (zip64 where that takes it).
 ///
-/// What a file holds is told before: its size and checksum stand in front of it.
+/// What a file holds is written before: its size and checksum stand in front of it.
 class StoredZip {
  public:
   explicit StoredZip(OutputFile& out) : out_(out) {}

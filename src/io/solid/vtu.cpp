@@ -67,7 +67,7 @@ class VtuReader {
     fail(line_of(node), cause);
   }
 
-  /// Counts from the place asked for last, which is never far away.
+  /// Counts from the place requested last, which is never far away.
   std::size_t line_of_byte(std::size_t at) const {
     at = std::min(at, bytes_.size());
     const auto [from, to] = std::minmax(at, counted_);

@@ -20,7 +20,7 @@ struct VtuEncoding {
 /// The bytes of the array that starts at the front of `data`, which may go on behind it.
 ///
 /// `base64` tells how `data` is written; otherwise it is raw. `where` starts the messages. Memory
-/// is asked for only as far as `data` can fill it. Throws InputError, or NotBuiltError if it takes
+/// is requested only as far as `data` can fill it. Throws InputError, or NotBuiltError if it takes
 /// a zlib that is not there.
 ///
 /// `room` is how many bytes the arrays of the file may still come to: it gets less by this one, and

@@ -189,8 +189,8 @@ void skip_property(Source& source, const PlyProperty& property) {
   source.skip(property.type, static_cast<std::uint64_t>(length), last_property);
 }
 
-/// Walks over all elements. `begin(element)` is told of each whose count its bytes can hold, and
-/// `read(element, i, property)` is asked for every property of instance i: it takes the value and
+/// Walks over all elements. `begin(element)` is called for each whose count its bytes can hold, and
+/// `read(element, i, property)` is called for every property of instance i: it takes the value and
 /// says true, or leaves it and says false.
 template <class Source, class Begin, class Read>
 void walk_ply(Source& source, const PlyHeader& header, Begin begin, Read read) {

@@ -40,7 +40,7 @@ class VertexMerger {
     h *= 0xD6E8FEB86659FD93ULL;
     return h ^ (h >> 32);
   }
-  /// The two reads that miss the cache, asked for ahead, one call each.
+  /// The two reads that miss the cache, fetched ahead, one call each.
   void prefetch_slot(std::uint64_t hash) const { fetch(&slots_[slot_of(hash)]); }
   void prefetch_position(std::uint64_t hash) const {
     const std::uint32_t number = slots_[slot_of(hash)].number;
@@ -150,7 +150,7 @@ Triangles read_binary(std::string_view bytes, std::string_view name) {
   surface.positions.reserve(facets / 2 + 2);  // of closed surfaces exactly (Euler), but for handles
   VertexMerger merger(surface.positions, facets / 2);
 
-  // Block by block, so that what is looked up is on its way before it is asked for.
+  // Block by block, so that what is looked up is on its way before it is requested.
   constexpr std::size_t block = 64;
   std::array<VertexMerger::Position, 3 * block> positions;
   std::array<std::uint64_t, 3 * block> hashes;

@@ -39,7 +39,7 @@ PointSource locate_source(const AnyShape& domain, const SourceArgument& argument
 std::vector<PointSource> locate_sources(const AnyShape& domain,
                                         const std::vector<SourceArgument>& arguments);
 
-/// How far a point that was asked for is from where it is in the domain; nothing for a vertex.
+/// How far a point that was requested is from where it is in the domain; nothing for a vertex.
 std::optional<double> distance_from(const AnyShape& domain, const SourceArgument& argument,
                                     const PointSource& source);
 

@@ -47,7 +47,7 @@ std::vector<PointSource> as_points(std::span<const Source> sources);
 /// Are there curves or triangles on a surface? They lie in its triangles as they are.
 bool have_shapes(const AnyShape& domain, std::span<const Source> sources);
 
-/// Points of those that are asked for by coordinates, but for polylines, and where they are in the
+/// Points of those that are requested by coordinates, but for polylines, and where they are in the
 /// domain.
 struct AskedPoints {
   std::vector<SourceArgument> asked;

@@ -8,7 +8,7 @@
 namespace plexway {
 
 /// Reads the right answers: one number a line in vertex order, NaN where there is none ("nan"
-/// lines), +inf where no path leads ("inf"). Empty lines at the end do not count.
+/// lines), +inf where unreachable ("inf"). Empty lines at the end do not count.
 /// Throws InputError "FILE:LINE: cause", also when there are not `vertices` of them.
 std::vector<double> read_truth(const std::string& file, std::size_t vertices);
 

@@ -13,7 +13,7 @@ namespace plexway {
 
 /// What is taken from OpenVDB, behind a module since its libraries take 30 ms to load.
 ///
-/// `voxel` is 0 where it is to be chosen; `note` is told what came of it, for people: the voxel,
+/// `voxel` is 0 where it is to be chosen; `note` hears what came of it, for people: the voxel,
 /// and what was repaired.
 struct OpenvdbFunctions {
   /// What lies inside the level set of a file, and its boundary. `voxel` is the lattice's spacing.

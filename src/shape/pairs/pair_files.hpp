@@ -51,7 +51,7 @@ struct PairFiles {
 /// Does the name say HDF5?
 [[nodiscard]] bool is_hdf5(const std::string& file);
 
-/// What is told while files are made. Any may be empty.
+/// Callbacks while files are made. Any may be empty.
 struct PairFilesProgress {
   std::function<void(std::string_view)> stage = {};     ///< what begins
   std::function<void(const PairsProgress&)> rows = {};  ///< how many of them are there
@@ -78,7 +78,7 @@ struct PairFilesReport {
 };
 
 /// Solves the rows that are missing and finishes the files: a run that was ended in any way goes on
-/// where it was. Rows of surfaces are those of `solve` on the triangles that were asked for.
+/// where it was. Rows of surfaces are those of `solve` on the triangles that were requested.
 ///
 /// Where `ranks` share the rows all of them call it, and the leader has the files and the report.
 /// Throws as BlockJournal, all_pairs, AnyDomain, and UsageError where the executor does not find

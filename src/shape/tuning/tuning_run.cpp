@@ -185,7 +185,7 @@ TuningOutcome run_tuning(TuningRequest command, const ReadProgress& progress) {
   TuningOutcome outcome;
   const Stopwatch loading;
   TuningInput input = read_tuning_surfaces(command.inputs, command.truth_folder);
-  // Hours lie between here and the result: what cannot be written is told now.
+  // Hours lie between here and the result: what cannot be written is reported now.
   io::check_output_place(command.out, input.files, "--out");
   io::check_output_place(command.cpp, input.files, "--cpp");
   io::check_output_place(command.checkpoint, input.files, "--checkpoint");

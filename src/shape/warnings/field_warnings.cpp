@@ -279,7 +279,7 @@ std::vector<Warning> work_warnings(const FieldWork& work, Reader reader) {
             "distances here are less accurate" +
             cure);
   // Rounding turns a line of sight a little at each edge. Where a straight line in space is known
-  // it mends what windows lose by that.
+  // it repairs what windows lose by that.
   const bool by_labels = work.accuracy == Accuracy::fast();
   if (work.edges > (!work.in_space && !by_labels ? 1e4 : 5e4))
     warning("distances of up to " + short_number(work.edges) +

@@ -49,7 +49,7 @@ class AroundSource {
     }
   }
 
-  /// Is there a plane that could have all of them, and is told by those around the source? No is
+  /// Is there a plane that could have all of them, and is given by those around the source? No is
   /// sure.
   [[nodiscard]] bool may_be_flat(const Point3& to) const {
     if (is_line_) return false;

@@ -18,7 +18,7 @@ struct RimDetours {
 /// all that lies near the straight line lies in one plane with it: the way goes around a notch in
 /// the rim, or a void. Whether the surface ends there only who has it can tell. What is farther yet
 /// is behind a wall. Up to 16 sources are looked at, and none among more than 10,000 points (where
-/// the cloud is so much denser than in the mean, its spacing is not what is asked for), nor one
+/// the cloud is so much denser than in the mean, its spacing is not what is requested), nor one
 /// whose neighbours lie in a line. Cost: for each a look at all points, and at those around it for
 /// each of up to 64 that are farther, evenly among them if there are more.
 [[nodiscard]] RimDetours rim_detours(std::span<const std::array<double, 3>> positions,

@@ -57,7 +57,7 @@ DistanceReport report_of(const DistanceCommand& command, const Domain& domain,
           .of_surface = domain.kind() == DomainKind::surface};
 }
 
-// Where each source is in the domain, and how far from where it was asked for.
+// Where each source is in the domain, and how far from where it was requested.
 Json sources_json(const Domain& domain, const std::vector<SetArgument>& arguments,
                   const std::vector<Source>& sources) {
   Json list = Json::array();

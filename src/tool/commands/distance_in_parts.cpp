@@ -39,7 +39,7 @@
 namespace plexway::cli {
 namespace {
 
-/// The table's word on all that was asked for.
+/// The table's word on all that was requested.
 void check_support(const DistanceCommand& command, std::span<const SetArgument> arguments,
                    const Combination& cell) {
   require("--executor " + command.solve.executor.name, support(Purpose::ranks, cell));
@@ -91,7 +91,7 @@ auto with_file_name(const std::string& file, const Work& work) {
   }
 }
 
-/// Where a solve starts, and how that is told.
+/// Where a solve starts, and how that is reported.
 struct Sources {
   std::vector<PointSource> points;
   std::vector<std::string> texts;

@@ -16,7 +16,7 @@ namespace plexway::cli {
 
 struct Among;
 
-/// What `plexway pairs --sources` is told, as typed.
+/// What `plexway pairs --sources` takes, as typed.
 struct MatrixCommand : InputCommand {
   std::string sources, targets;  ///< FILE or "all"
   std::string out, stats, histogram, labels;
@@ -36,7 +36,7 @@ struct MatrixCommand : InputCommand {
 /// The options that only matrices of this kind have.
 void add_matrix_options(CLI::App& app, MatrixCommand& command);
 
-/// Is anything asked for that only --sources understands? Its name, or empty.
+/// Is anything requested that only --sources understands? Its name, or empty.
 [[nodiscard]] std::string only_for_matrices(const MatrixCommand& command);
 
 /// Solves what is missing of the matrix, and puts it in its place.

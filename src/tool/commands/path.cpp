@@ -47,7 +47,7 @@ struct PathCommand : InputCommand {
   bool astar = false;
 };
 
-// Points as they were asked for, and where that is in the domain.
+// Points as they were requested, and where that is in the domain.
 struct Places {
   std::vector<SourceArgument> asked;
   std::vector<PointSource> found;
@@ -114,7 +114,7 @@ PathOutcome run_paths(const Domain& domain, const BuildOptions& building,
   return outcome;
 }
 
-// How far the point that was asked for is from the domain, where one was.
+// How far the point that was requested is from the domain, where one was.
 Json snapped(const Domain& domain, const SourceArgument& asked, const PointSource& found) {
   const auto off = distance_from(domain, asked, found);
   return off ? Json(*off) : Json(nullptr);

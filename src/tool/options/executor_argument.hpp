@@ -29,7 +29,7 @@ using Executor = AnyExecutor;
 
 void add_executor_options(CLI::App& command, ExecutorArgument& argument, const std::string& group);
 
-/// The row of the table of what goes together. For `auto` that of Serial: whatever is asked for,
+/// The row of the table of what is supported. For `auto` that of Serial: whatever is requested,
 /// `auto` may choose it.
 [[nodiscard]] ExecutorKind kind_of(const ExecutorArgument& argument);
 

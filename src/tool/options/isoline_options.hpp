@@ -29,7 +29,7 @@ void add_isoline_options(CLI::App& command, IsolineOptions& options);
 void check_isolines(const IsolineOptions& options, const std::string& input);
 void check_isolines(const IsolineOptions& options, const Domain& domain);
 
-/// Each multiple of the step below the largest distance, but 0; none where none are asked for.
+/// Each multiple of the step below the largest distance, but 0; none where none are requested.
 /// Throws UsageError for more than 10000, and for none where the file cannot be empty.
 std::vector<double> isoline_values(const IsolineOptions& options, std::span<const double> distance);
 

@@ -24,7 +24,7 @@ struct PictureArguments {
   bool transparent = false, orthographic = false, small = false;
 
   [[nodiscard]] bool wanted() const { return !file.empty() || !html.empty(); }
-  /// The axis that points up in a picture of this: as asked for, or as the shape looks.
+  /// The axis that points up in a picture of this: as requested, or as the shape looks.
   [[nodiscard]] char up_of(const Domain& domain) const;
 };
 

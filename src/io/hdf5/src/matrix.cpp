@@ -59,7 +59,7 @@ void done(herr_t status) {
   if (status < 0) throw Refused();
 }
 
-/// Nothing on standard error: what goes wrong is told by us.
+/// Nothing on standard error: we report what goes wrong.
 class Silence {
  public:
   Silence() {
@@ -191,7 +191,7 @@ void write_chunks(hid_t set, const Matrix& matrix, std::array<std::size_t, 2> ch
   }
 }
 
-// Files are closed when they are told to be, with all that is in them.
+// Files are closed on request, with all that is in them.
 Handle file_access() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   done(H5Pset_fclose_degree(access, H5F_CLOSE_STRONG));
