@@ -20,8 +20,8 @@ struct ProbeTable {
     return {5.1424, 4.20638, .504201, {1., .0635997, .0515979, .56903, .0612103, .718198}};
   }
   /// Found on this library's own update rule, by `plexway tune`: plexway 0.1.0, 2026-11-21, on the
-  /// training set of bench/tune.sh (28 surfaces with the bunny of data/fetch.sh, 56 fields, digest
-  /// 03dd5f44d6423207):
+  /// training set of data/tuning_shapes.hpp (28 surfaces with the bunny of data/fetch.sh, 56
+  /// fields, digest 03dd5f44d6423207):
   ///   plexway tune training/*.obj --seed 2 --evaluations 300 --restarts 3
   /// Mean error there 5.435e-03; centroid 8.944e-03, published table 6.678e-03. docs/log/tuning.md
   /// has those it was not trained on.

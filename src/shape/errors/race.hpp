@@ -13,6 +13,21 @@
 
 namespace plexway {
 
+/// Boost.Graph's Dijkstra on the edges of a domain, to measure against; of a cloud, those to the
+/// neighbours.
+class EdgeDijkstra {
+ public:
+  virtual ~EdgeDijkstra() = default;
+  EdgeDijkstra() = default;
+  EdgeDijkstra(const EdgeDijkstra&) = delete;
+  EdgeDijkstra& operator=(const EdgeDijkstra&) = delete;
+
+  virtual void run(Index source) = 0;
+};
+
+/// Builds its graph; null where this build has no Boost.Graph.
+std::unique_ptr<EdgeDijkstra> make_edge_dijkstra(const AnyShape& domain, Precision precision);
+
 /// Times of single runs, in ns a vertex.
 struct RaceTimes {
   std::vector<double> plexway, dijkstra;
@@ -35,20 +50,5 @@ void add_random_sources(std::vector<PointSource>& sources, std::size_t count,
                              std::span<const PointSource> sources, const AnyExecutor& executor,
                              const PropagateOptions& options, std::size_t repeats,
                              const std::function<void(double share)>& progress);
-
-/// Boost.Graph's Dijkstra on the edges of a domain, to measure against; of a cloud, those to the
-/// neighbours.
-class EdgeDijkstra {
- public:
-  virtual ~EdgeDijkstra() = default;
-  EdgeDijkstra() = default;
-  EdgeDijkstra(const EdgeDijkstra&) = delete;
-  EdgeDijkstra& operator=(const EdgeDijkstra&) = delete;
-
-  virtual void run(Index source) = 0;
-};
-
-/// Builds its graph; null where this build has no Boost.Graph.
-std::unique_ptr<EdgeDijkstra> make_edge_dijkstra(const AnyShape& domain, Precision precision);
 
 }  // namespace plexway
