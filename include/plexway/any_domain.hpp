@@ -19,7 +19,7 @@
 #include <plexway/any/shape.hpp>
 #include <plexway/apps/path.hpp>
 #include <plexway/apps/read_out.hpp>
-#include <plexway/executors/gl_executor.hpp>
+#include <plexway/executors.hpp>
 #include <plexway/propagate/options.hpp>
 #include <plexway/source/source_list.hpp>
 #include <plexway/support.hpp>

@@ -12,6 +12,7 @@
 #include <plexway/complex/detail/triangle_record.hpp>
 #include <plexway/complex/detail/unfilled.hpp>
 #include <plexway/complex/ids.hpp>
+#include <plexway/complex/rows_of.hpp>
 #include <plexway/domain/concept.hpp>
 
 namespace plexway {
@@ -121,6 +122,14 @@ class TriangleMesh {
   /// several.
   TriangleMesh(std::span<const std::array<double, 3>> positions,
                std::span<const std::array<Index, 3>> faces, const SurfaceHints& hints = {});
+
+  /// From arrays of any kind (rows_of): std::vector<std::array<float, 3>>, Eigen's matrices,
+  /// numbers in a row. What is not as above is copied for a while.
+  template <class Points, class Faces>
+  requires(OtherRows<Points, Faces, 3>)
+      TriangleMesh(const Points& positions, const Faces& faces, const SurfaceHints& hints = {})
+      : TriangleMesh(std::span<const std::array<double, 3>>(rows_of<double, 3>(positions)),
+                     std::span<const std::array<Index, 3>>(rows_of<Index, 3>(faces)), hints) {}
 
   /// From lengths alone: lengths[f][i] is the length of the edge from corner i of face f to the
   /// next, and must be the same from both sides (but for 1e-5, of which the mean is taken;
