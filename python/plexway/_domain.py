@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import base64
 import os
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Type, Union
 
 import numpy as np
 
 from . import _plexway
-from ._arrays import Array, plain, real, whole
+from ._arrays import Array, plain, real, scipy_sparse, whole
 from ._progress import Progress, ProgressLike
 from ._results import (
     Cells,
@@ -20,7 +21,7 @@ from ._results import (
     Picture,
     Points,
 )
-from ._sources import index, located
+from ._sources import index, located, place
 from ._warnings import warn
 
 if TYPE_CHECKING:
@@ -175,6 +176,18 @@ class Domain:
         if self.kind != "cloud":
             sizes.append(counted(native.simplex_count, native.simplex_name))
         return f"plexway.{type(self).__name__}({', '.join(sizes)})"
+
+    def _repr_html_(self) -> Optional[str]:
+        return self._shown(None)
+
+    def _shown(self, distance: Optional[ArrayLike]) -> Optional[str]:
+        """A small picture over what it is, for notebooks; None where none can be drawn."""
+        try:
+            png = self.picture(distance, size=(480, 360), transparent=True).png()
+        except _plexway.Error:
+            return None
+        image = base64.b64encode(png).decode()
+        return f'<img src="data:image/png;base64,{image}" width="480"><br><code>{self!r}</code>'
 
     # -- Distances.
 
@@ -516,7 +529,7 @@ class Domain:
         On surfaces and clouds a row costs what it reaches and a look at each vertex (30 ns); with
         ``accuracy='fast'`` only what it reaches.
         """
-        csr_matrix = _scipy_sparse().csr_matrix
+        csr_matrix = scipy_sparse().csr_matrix
         _check_near(radius, count)
         arguments = _arguments(threads, None, _INFINITY, "saddles", accuracy, many=True)
         every = np.arange(self.vertex_count) if sources is None else sources
@@ -553,7 +566,8 @@ class Domain:
         Parameters
         ----------
         source
-            As in `distance`, vertices and points alone.
+            As in `distance`. From lines (`Segment`, `Polyline`, `Path`, `WholeSimplex`, `Boundary`)
+            on surfaces and wireframes each path takes a solve of its own.
         accuracy, radius, threads, visibility, progress
             As in `distance`.
 
@@ -563,12 +577,42 @@ class Domain:
         """
         arguments = _arguments(threads, None, radius, visibility, accuracy)
         sources = located(self, source)
+        owner: Optional[Array] = None
+        sets = [s.points if isinstance(s, _plexway.VertexSet) else [s] for s in sources]
+        if any(isinstance(s, _plexway.VertexSet) for s in sources):
+            owner = np.repeat(np.arange(len(sets)), [len(points) for points in sets])
+        points = [point for one in sets for point in one]
+        if not all(isinstance(point, _plexway.Point) for point in points):
+            return self._line_field(source, sources, arguments, progress)
         with Progress(progress, "solving") as report:
-            native = _plexway.path_field(self._native, sources, arguments, report)
+            native = _plexway.path_field(self._native, points, arguments, report)
         warn(native.doubts, self)
-        return Field(self, native)
+        return Field(self, native, owner)
 
-    def path(self, source: Any, target: Place, *, margin: Optional[float] = None) -> Path:
+    def _line_field(self, source: Any, sources: Any, arguments: Any, progress: ProgressLike) -> Field:
+        from ._curves import LineField, lines_of
+
+        if self.kind not in ("surface", "wireframe") or self._native.measured is not None:
+            raise _plexway.UsageError(
+                "paths lead to points and vertices; to lines on surfaces and wireframes without a metric"
+            )
+        lines = lines_of(self, source)
+        with Progress(progress, "solving") as report:
+            found, label, _, doubts = _plexway.solve(
+                self._native, sources, arguments, True, False, report
+            )
+        warn(doubts, self)
+        return LineField(self, lines, found, label)
+
+    def path(
+        self,
+        source: Any,
+        target: Place,
+        *,
+        accuracy: AccuracyLike = None,
+        margin: Optional[float] = None,
+        astar: bool = False,
+    ) -> Path:
         """The shortest way from `target` to the nearest source. For several ways to one source keep
         a `field`.
 
@@ -578,15 +622,25 @@ class Domain:
             As in `distance`, vertices and points alone.
         target : Place
             A vertex, a point in space, or a `Point`.
+        accuracy
+            As in `distance`.
         margin : float, optional
             See `Field.path`.
+        astar : bool
+            On a surface: look toward the target and stop there, instead of at everything.
 
         Returns
         -------
         Path
             From the target to the source.
         """
-        return self.field(source).path(target, margin=margin)
+        if not astar:
+            return self.field(source, accuracy=accuracy).path(target, margin=margin)
+        if accuracy is not None:
+            raise ValueError("accuracy: a search by A* goes by its margin")
+        ends = [place(self, target)]
+        found = _plexway.find_paths(self._native, located(self, source), ends, margin, None)
+        return Path(*found[0])
 
     def at(self, source: Any, points: ArrayLike, *, level: str = "neighbours") -> Array:
         """Distances of any points of the domain from the nearest source; see `Field.at`.
@@ -904,18 +958,10 @@ def _check_near(radius: Any, count: Any) -> None:
         raise ValueError(f"radius: expected 0 or more, got {radius}")
 
 
-def _scipy_sparse() -> Any:
-    try:
-        import scipy.sparse  # type: ignore
-    except ImportError as error:
-        raise _plexway.NotBuilt("sparse matrices need SciPy: install python3-scipy") from error
-    return scipy.sparse
-
-
 def _loaded_sparse(file: str) -> Any:
     if file.endswith(".npz"):
-        return _scipy_sparse().load_npz(file)
-    _scipy_sparse()
+        return scipy_sparse().load_npz(file)
+    scipy_sparse()
     from scipy.io import mmread  # type: ignore
 
     return mmread(file).tocsr()

@@ -1,13 +1,17 @@
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <plexway/any/scene.hpp>
 #include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
+#include <plexway/io/page.hpp>
 
+#include "any/shape_page.hpp"
 #include "arrays.hpp"
 #include "domain.hpp"
 
@@ -64,8 +68,30 @@ py::object picture(const py::args&) {
 
 #endif
 
+// One file of HTML, to turn and come nearer in a browser.
+void page(const Domain& domain, const std::filesystem::path& file, const py::object& distance,
+          const std::vector<PointSource>& sources, const py::list& paths, const std::string& title,
+          const std::string& map) {
+  std::vector<double> value;
+  if (!distance.is_none()) value = numbers_of(distance, "distance");
+  SceneContent content;
+  content.distance = value;
+  for (const PointSource& source : sources)
+    content.sources.push_back(domain.shape().position(source));
+  for (const py::handle& path : paths) content.paths.push_back(points_of(path, "paths"));
+  const py::gil_scoped_release free;
+  io::Page page;
+  fill_page(page, domain.open(), content);
+  page.title = title;
+  page.map = map;
+  io::write_page(file, page);
+}
+
 }  // namespace
 
-void bind_picture(py::module_& module) { module.def("picture", &picture); }
+void bind_picture(py::module_& module) {
+  module.def("picture", &picture);
+  module.def("page", &page);
+}
 
 }  // namespace plexway::python
