@@ -26,7 +26,7 @@ py::array as_numbers(const py::handle& object, const char* name) {
   const char kind = array.dtype().kind();
   if (kind != 'f' && kind != 'i' && kind != 'u')
     throw py::type_error(std::string(name) + ": expected numbers, got dtype " +
-                          py::str(array.dtype()).cast<std::string>());
+                         py::str(array.dtype()).cast<std::string>());
   return array;
 }
 
@@ -63,7 +63,7 @@ py::array as_integers(const py::handle& object, const char* name, std::size_t co
   const char kind = array.dtype().kind();
   if (kind != 'i' && kind != 'u')
     throw py::type_error(std::string(name) + ": expected integers, got dtype " +
-                          py::str(array.dtype()).cast<std::string>());
+                         py::str(array.dtype()).cast<std::string>());
   const auto wanted = static_cast<py::ssize_t>(columns);
   if (columns == 0 ? array.ndim() != 1 : array.ndim() != 2 || array.shape(1) != wanted)
     throw py::value_error(std::string(name) + ": expected a shape " +

@@ -52,6 +52,10 @@ Path shortened(const TriangleMesh<Real>& mesh, std::span<const PathPoint> path,
     }
     lines.push_back(line);
   }
+  if (lines.empty()) {  // it stays where it is
+    const StraightPiece only = at(path[0]);
+    lines.push_back({only.face, only.from, only.from});
+  }
   const auto end = [](const PathPoint& point) {
     return PointSource{.simplex = point.simplex, .barycentric = point.barycentric};
   };

@@ -15,15 +15,17 @@ namespace fs = std::filesystem;
 
 // Includes only point downward. A new folder or top-level header gets its floor here.
 const std::map<std::string, int> floor_of_name = {
-    {"error.hpp", 0},      {"version.hpp", 0}, {"kernel", 0},
-    {"file", 0},           {"complex", 1},     {"source", 1},
-    {"metric", 1},         {"domain", 1},      {"propagate", 2},
-    {"strings", 2},        {"executors", 3},   {"executors.hpp", 3},
-    {"solve.hpp", 3},      {"support.hpp", 3}, {"carried.hpp", 3},
-    {"complexes", 4},      {"apps", 5},        {"io", 6},
-    {"render", 6},         {"mpi", 6},         {"any", 7},
-    {"any_domain.hpp", 7}, {"cli", 8},         {"cli_mpi", 8},
-    {"shaders", 0},        {"plexway.hpp", 8},
+    {"error.hpp", 0},      {"version.hpp", 0},   {"kernel", 0},
+    {"file", 0},           {"complex", 1},       {"source", 1},
+    {"metric", 1},         {"domain", 1},        {"propagate", 2},
+    {"strings", 2},        {"executors", 3},     {"executors.hpp", 3},
+    {"solve.hpp", 3},      {"support.hpp", 3},   {"carried.hpp", 3},
+    {"complexes", 4},      {"apps", 5},          {"io", 6},
+    {"render", 6},         {"mpi", 6},           {"any", 7},
+    {"any_domain.hpp", 7}, {"cli", 8},           {"cli_mpi", 8},
+    {"shaders", 0},        {"plexway.hpp", 8},   {"surface.hpp", 6},
+    {"solid.hpp", 6},      {"wireframe.hpp", 6}, {"cloud.hpp", 6},
+    {"mixed.hpp", 6},      {"simplices.hpp", 6},
 };
 
 std::string first_part(const std::string& path) { return path.substr(0, path.find('/')); }
