@@ -2,11 +2,11 @@
 
 /// @file
 /// Solids: all for tetrahedra. Link plexway::apps and plexway::io.
-#include <plexway/apps/isosurfaces.hpp>
-#include <plexway/apps/path_field.hpp>
-#include <plexway/complex/closest.hpp>
-#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/common/closest.hpp>
+#include <plexway/fields/isosurfaces.hpp>
 #include <plexway/io/field.hpp>
 #include <plexway/io/tets.hpp>
 #include <plexway/metric/edge_lengths.hpp>
+#include <plexway/paths/path_field.hpp>
+#include <plexway/solid/tet_mesh.hpp>
 #include <plexway/solve.hpp>

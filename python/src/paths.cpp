@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/any/complex.hpp>
-#include <plexway/any/isolines.hpp>
-#include <plexway/any/search.hpp>
-#include <plexway/apps/shorten.hpp>
 #include <plexway/error.hpp>
+#include <plexway/paths/shorten.hpp>
+#include <plexway/shape/complex.hpp>
+#include <plexway/shape/isolines.hpp>
+#include <plexway/shape/search.hpp>
 
 #include "arrays.hpp"
 #include "domain.hpp"

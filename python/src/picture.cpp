@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include <plexway/any/scene.hpp>
-#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/page.hpp>
+#include <plexway/shape/scene.hpp>
+#include <plexway/shape/support.hpp>
 
-#include "any/shape_page.hpp"
 #include "arrays.hpp"
 #include "domain.hpp"
+#include "shape/shape_page.hpp"
 
 #ifdef PLEXWAY_HAS_RENDER
 #include <plexway/render/picture.hpp>

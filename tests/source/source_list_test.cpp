@@ -1,4 +1,4 @@
-#include <plexway/complex/closest.hpp>
+#include <plexway/common/closest.hpp>
 #include <plexway/error.hpp>
 #include <plexway/surface.hpp>
 
