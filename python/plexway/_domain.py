@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Ty
 import numpy as np
 
 from . import _plexway
-from ._arrays import Array, plain, real, scipy_sparse, whole
+from ._arrays import Array, real, scipy_sparse, whole
 from ._progress import Progress, ProgressLike
 from ._results import (
     Cells,
@@ -21,7 +21,7 @@ from ._results import (
     Picture,
     Points,
 )
-from ._sources import index, located, place
+from ._sources import columns_of, index, located, place
 from ._warnings import warn
 
 if TYPE_CHECKING:
@@ -379,7 +379,8 @@ class Domain:
         arguments = _arguments(threads, executor, radius, visibility, accuracy, many=True)
         every = np.arange(self.vertex_count) if sources is None else sources
         located_sources = located(self, every, none_is_well=True)
-        width = self.vertex_count if columns is None else len(plain(columns, "columns"))
+        columns = columns_of(self, columns)
+        width = self.vertex_count if columns is None else np.size(columns)
         shape = (len(located_sources), width)
         if out is None:
             out = np.empty(shape, self.dtype if dtype is None else np.dtype(dtype))
@@ -469,6 +470,7 @@ class Domain:
             _check_near(radius, count)
         elif count is not None:
             raise ValueError("count: only for sparse matrices, .npz or .mtx")
+        columns = columns_of(self, columns)
         number = self.dtype if dtype is None else np.dtype(dtype)
         reach = radius if dense else _INFINITY
         arguments = _arguments(threads, None, reach, visibility, accuracy, many=True)
@@ -531,11 +533,12 @@ class Domain:
         """
         csr_matrix = scipy_sparse().csr_matrix
         _check_near(radius, count)
+        columns = columns_of(self, columns)
+        width = self.vertex_count if columns is None else np.size(columns)
         arguments = _arguments(threads, None, _INFINITY, "saddles", accuracy, many=True)
         every = np.arange(self.vertex_count) if sources is None else sources
         located_sources = located(self, every, none_is_well=True)
         if not located_sources:
-            width = self.vertex_count if columns is None else len(plain(columns, "columns"))
             return csr_matrix((0, width), dtype=self.dtype)
         with Progress(progress, "solving") as report:
             *rows, doubts = _plexway.near(
@@ -547,7 +550,6 @@ class Domain:
                 arguments,
                 report,
             )
-        width = self.vertex_count if columns is None else len(plain(columns, "columns"))
         warn(doubts, self)
         return csr_matrix(tuple(rows), shape=(len(located_sources), width))
 

@@ -174,6 +174,17 @@ def index(value: Any, count: int, what: str) -> int:
     return number
 
 
+def columns_of(domain: Any, columns: Any) -> Any:
+    """The vertices that are columns, or None for all; IndexError for one that does not exist."""
+    if columns is None:
+        return None
+    array = plain(columns, "columns")
+    if array.dtype.kind in "iu" and array.size:
+        for vertex in (array.min(), array.max()):
+            index(vertex, domain.vertex_count, "columns: vertex")
+    return array
+
+
 def _diagonal(domain: Any) -> float:
     """Of the box around all positions."""
     if domain._diagonal is None:

@@ -373,6 +373,20 @@ def test_grid():
         grid.from_level_set(np.zeros((3, 3)))
 
 
+def test_speeds_that_change_evenly():
+    """Time in a medium of speed 1 + g x: arcosh(1 + g^2 r^2 / (2 c0 c)) / g."""
+    g, errors = np.array([0.5, 1.0]), []
+    for n in (21, 41, 81):
+        x = np.indices((n, n)) / (n - 1)
+        speed = 1 + np.tensordot(g, x, 1)
+        centre = (n // 2, n // 2)
+        r2 = sum((x[k] - x[k][centre]) ** 2 for k in (0, 1))
+        truth = np.arccosh(1 + g @ g * r2 / (2 * speed[centre] * speed)) / np.sqrt(g @ g)
+        found = px.Grid((n, n), 1 / (n - 1), speed, precision="double").distance(centre)
+        errors.append((np.abs(found - truth)[truth > 0] / truth[truth > 0]).mean())
+    assert errors[1] < 1e-4 and np.all(np.array(errors[:-1]) > 3 * np.array(errors[1:]))
+
+
 def test_level_sets():
     grid = px.Grid((41, 41), 0.05, precision="double")
     x, y = np.indices(grid.shape) * 0.05
