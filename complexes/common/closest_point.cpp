@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include <plexway/common/closest.hpp>
+#include <plexway/error.hpp>
 #include <plexway/solid/detail/tet_record.hpp>
 
 #include "complexes/common/point3.hpp"
@@ -142,6 +144,40 @@ SimplexPoint closest_point(Positions positions,
 SimplexPoint closest_point(Positions positions, std::span<const std::array<std::uint32_t, 4>> tets,
                            const Vector& point) {
   return closest_of_all(positions, tets, point);
+}
+
+PointSource source_at(const SimplexPoint& found, std::span<const Index> corners) {
+  constexpr double corner_share = 1 - 1e-12;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (found.barycentric[i] >= corner_share) return PointSource::at(corners[i]);
+  return PointSource::in(static_cast<Index>(found.simplex), found.barycentric);
+}
+
+namespace {
+
+template <std::size_t N>
+PointSource closest_source(Positions positions, std::span<const std::array<Index, N>> simplices,
+                           const Vector& point) {
+  if (simplices.empty()) throw UsageError("there is no simplex to be close to");
+  for (const double x : point)
+    if (!std::isfinite(x)) throw UsageError("the point is not finite");
+  const SimplexPoint found = closest_point(positions, simplices, point);
+  return source_at(found, simplices[found.simplex]);
+}
+
+}  // namespace
+
+PointSource closest(Positions positions, std::span<const std::array<Index, 2>> edges,
+                    const Vector& point) {
+  return closest_source(positions, edges, point);
+}
+PointSource closest(Positions positions, std::span<const std::array<Index, 3>> triangles,
+                    const Vector& point) {
+  return closest_source(positions, triangles, point);
+}
+PointSource closest(Positions positions, std::span<const std::array<Index, 4>> tets,
+                    const Vector& point) {
+  return closest_source(positions, tets, point);
 }
 
 double squared_distance(const std::array<Vector, 3>& corners) {

@@ -6,11 +6,10 @@
 #include <limits>
 #include <span>
 
-namespace plexway {
+#include <plexway/common/ids.hpp>
+#include <plexway/source/point_source.hpp>
 
-/// With such a share of a corner a point is the corner: nearer than a rounding error of the
-/// coordinates.
-inline constexpr double corner_share = 1 - 1e-12;
+namespace plexway {
 
 /// A point of a simplex.
 struct SimplexPoint {
@@ -20,6 +19,9 @@ struct SimplexPoint {
   /// From the point asked for, in a unit that depends on that and the positions alone.
   double squared_distance = std::numeric_limits<double>::infinity();
 };
+
+/// As a source: a corner where it is nearer to that than a rounding error of the coordinates.
+PointSource source_at(const SimplexPoint& found, std::span<const Index> corners);
 
 /// The point of some simplices that is closest to `point`, finite coordinates: of tetrahedra that
 /// is the point itself where it lies inside. Among equally close ones, the one of the first

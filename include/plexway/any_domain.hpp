@@ -14,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-#include <plexway/executors/gl_executor.hpp>
+#include <plexway/executors.hpp>
 #include <plexway/fields/read_out.hpp>
 #include <plexway/paths/path.hpp>
 #include <plexway/shape/field.hpp>

@@ -7,8 +7,10 @@
 #include <plexway/carried.hpp>
 #include <plexway/cloud/neighbours.hpp>
 #include <plexway/common/blocks.hpp>
+#include <plexway/common/closest.hpp>
 #include <plexway/common/distinct_points.hpp>
 #include <plexway/common/mask.hpp>
+#include <plexway/common/rows_of.hpp>
 #include <plexway/error.hpp>
 #include <plexway/executors/gl.hpp>
 #include <plexway/executors/joined_rows.hpp>
@@ -50,6 +52,7 @@
 #include <plexway/paths/path.hpp>
 #include <plexway/paths/path_field.hpp>
 #include <plexway/paths/path_search.hpp>
+#include <plexway/paths/shorten.hpp>
 #include <plexway/render/image.hpp>
 #include <plexway/render/picture.hpp>
 #include <plexway/render/scene.hpp>

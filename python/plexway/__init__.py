@@ -38,8 +38,9 @@ from ._plexway import (
     __version__,
 )
 from ._domain import Domain
+from ._grid import Grid
 from ._kinds import Cloud, Mixed, Simplicial, Solid, Surface, Wireframe
-from ._make import distance, domain, read, read_labels
+from ._make import distance, domain, read, read_labels, show
 from ._metrics import EdgeLengths, SimplexSpeeds, SimplexTensors, VertexTensors
 from ._results import Cells, Disks, FarthestPoints, Field, Isosurfaces, Path, Picture, Points
 from ._sources import (
@@ -70,6 +71,7 @@ __all__ = [
     "Error",
     "FarthestPoints",
     "Field",
+    "Grid",
     "InputError",
     "Isosurfaces",
     "Mixed",
@@ -99,4 +101,5 @@ __all__ = [
     "domain",
     "read",
     "read_labels",
+    "show",
 ]

@@ -7,6 +7,8 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import NDArray
 
+from ._plexway import NotBuilt
+
 Array = NDArray[Any]
 
 
@@ -41,3 +43,12 @@ def plain(value: Any, name: str) -> Array:
             f"{name}: a masked array; leave simplices out by `mask=`, or fill what is masked"
         )
     return np.asarray(value)
+
+
+def scipy_sparse() -> Any:
+    """The module scipy.sparse."""
+    try:
+        import scipy.sparse  # type: ignore
+    except ImportError as error:
+        raise NotBuilt("sparse matrices need SciPy: install python3-scipy") from error
+    return scipy.sparse

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import base64
 import os
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Type, Union
 
 import numpy as np
 
 from . import _plexway
-from ._arrays import Array, plain, real, whole
+from ._arrays import Array, real, scipy_sparse, whole
 from ._progress import Progress, ProgressLike
 from ._results import (
     Cells,
@@ -20,7 +21,7 @@ from ._results import (
     Picture,
     Points,
 )
-from ._sources import index, located
+from ._sources import columns_of, index, located, place
 from ._warnings import warn
 
 if TYPE_CHECKING:
@@ -176,6 +177,18 @@ class Domain:
         if self.kind != "cloud":
             sizes.append(counted(native.simplex_count, native.simplex_name))
         return f"plexway.{type(self).__name__}({', '.join(sizes)})"
+
+    def _repr_html_(self) -> Optional[str]:
+        return self._shown(None)
+
+    def _shown(self, distance: Optional[ArrayLike]) -> Optional[str]:
+        """A small picture over what it is, for notebooks; None where none can be drawn."""
+        try:
+            png = self.picture(distance, size=(480, 360), transparent=True).png()
+        except _plexway.Error:
+            return None
+        image = base64.b64encode(png).decode()
+        return f'<img src="data:image/png;base64,{image}" width="480"><br><code>{self!r}</code>'
 
     # -- Distances.
 
@@ -367,7 +380,8 @@ class Domain:
         arguments = _arguments(threads, executor, radius, visibility, accuracy, many=True)
         every = np.arange(self.vertex_count) if sources is None else sources
         located_sources = located(self, every, none_is_well=True)
-        width = self.vertex_count if columns is None else len(plain(columns, "columns"))
+        columns = columns_of(self, columns)
+        width = self.vertex_count if columns is None else np.size(columns)
         shape = (len(located_sources), width)
         if out is None:
             out = np.empty(shape, self.dtype if dtype is None else np.dtype(dtype))
@@ -457,6 +471,7 @@ class Domain:
             _check_near(radius, count)
         elif count is not None:
             raise ValueError("count: only for sparse matrices, .npz or .mtx")
+        columns = columns_of(self, columns)
         number = self.dtype if dtype is None else np.dtype(dtype)
         reach = radius if dense else _INFINITY
         arguments = _arguments(threads, None, reach, visibility, accuracy, many=True)
@@ -517,13 +532,14 @@ class Domain:
         On surfaces and clouds a row costs what it reaches and a look at each vertex (30 ns); with
         ``accuracy='fast'`` only what it reaches.
         """
-        csr_matrix = _scipy_sparse().csr_matrix
+        csr_matrix = scipy_sparse().csr_matrix
         _check_near(radius, count)
+        columns = columns_of(self, columns)
+        width = self.vertex_count if columns is None else np.size(columns)
         arguments = _arguments(threads, None, _INFINITY, "saddles", accuracy, many=True)
         every = np.arange(self.vertex_count) if sources is None else sources
         located_sources = located(self, every, none_is_well=True)
         if not located_sources:
-            width = self.vertex_count if columns is None else len(plain(columns, "columns"))
             return csr_matrix((0, width), dtype=self.dtype)
         with Progress(progress, "solving") as report:
             *rows, doubts = _plexway.near(
@@ -535,7 +551,6 @@ class Domain:
                 arguments,
                 report,
             )
-        width = self.vertex_count if columns is None else len(plain(columns, "columns"))
         warn(doubts, self)
         return csr_matrix(tuple(rows), shape=(len(located_sources), width))
 
@@ -554,7 +569,8 @@ class Domain:
         Parameters
         ----------
         source
-            As in `distance`, vertices and points alone.
+            As in `distance`. From lines (`Segment`, `Polyline`, `Path`, `WholeSimplex`, `Boundary`)
+            on surfaces and wireframes each path takes a solve of its own.
         accuracy, radius, threads, visibility, progress
             As in `distance`.
 
@@ -564,12 +580,42 @@ class Domain:
         """
         arguments = _arguments(threads, None, radius, visibility, accuracy)
         sources = located(self, source)
+        owner: Optional[Array] = None
+        sets = [s.points if isinstance(s, _plexway.VertexSet) else [s] for s in sources]
+        if any(isinstance(s, _plexway.VertexSet) for s in sources):
+            owner = np.repeat(np.arange(len(sets)), [len(points) for points in sets])
+        points = [point for one in sets for point in one]
+        if not all(isinstance(point, _plexway.Point) for point in points):
+            return self._line_field(source, sources, arguments, progress)
         with Progress(progress, "solving") as report:
-            native = _plexway.path_field(self._native, sources, arguments, report)
+            native = _plexway.path_field(self._native, points, arguments, report)
         warn(native.doubts, self)
-        return Field(self, native)
+        return Field(self, native, owner)
 
-    def path(self, source: Any, target: Place, *, margin: Optional[float] = None) -> Path:
+    def _line_field(self, source: Any, sources: Any, arguments: Any, progress: ProgressLike) -> Field:
+        from ._curves import LineField, lines_of
+
+        if self.kind not in ("surface", "wireframe") or self._native.measured is not None:
+            raise _plexway.UsageError(
+                "paths lead to points and vertices; to lines on surfaces and wireframes without a metric"
+            )
+        lines = lines_of(self, source)
+        with Progress(progress, "solving") as report:
+            found, label, _, doubts = _plexway.solve(
+                self._native, sources, arguments, True, False, report
+            )
+        warn(doubts, self)
+        return LineField(self, lines, found, label)
+
+    def path(
+        self,
+        source: Any,
+        target: Place,
+        *,
+        accuracy: AccuracyLike = None,
+        margin: Optional[float] = None,
+        astar: bool = False,
+    ) -> Path:
         """The shortest path from `target` to the nearest source. For several paths to one source
         keep a `field`.
 
@@ -579,15 +625,25 @@ class Domain:
             As in `distance`, vertices and points alone.
         target : Place
             A vertex, a point in space, or a `Point`.
+        accuracy
+            As in `distance`.
         margin : float, optional
             See `Field.path`.
+        astar : bool
+            On a surface: look toward the target and stop there, instead of at everything.
 
         Returns
         -------
         Path
             From the target to the source.
         """
-        return self.field(source).path(target, margin=margin)
+        if not astar:
+            return self.field(source, accuracy=accuracy).path(target, margin=margin)
+        if accuracy is not None:
+            raise ValueError("accuracy: a search by A* goes by its margin")
+        ends = [place(self, target)]
+        found = _plexway.find_paths(self._native, located(self, source), ends, margin, None)
+        return Path(*found[0])
 
     def at(self, source: Any, points: ArrayLike, *, level: str = "neighbours") -> Array:
         """Distances of any points of the domain from the nearest source; see `Field.at`.
@@ -906,18 +962,10 @@ def _check_near(radius: Any, count: Any) -> None:
         raise ValueError(f"radius: expected 0 or more, got {radius}")
 
 
-def _scipy_sparse() -> Any:
-    try:
-        import scipy.sparse  # type: ignore
-    except ImportError as error:
-        raise _plexway.NotBuilt("sparse matrices need SciPy: install python3-scipy") from error
-    return scipy.sparse
-
-
 def _loaded_sparse(file: str) -> Any:
     if file.endswith(".npz"):
-        return _scipy_sparse().load_npz(file)
-    _scipy_sparse()
+        return scipy_sparse().load_npz(file)
+    scipy_sparse()
     from scipy.io import mmread  # type: ignore
 
     return mmread(file).tocsr()

@@ -8,14 +8,20 @@ import numpy as np
 
 from . import _plexway
 from ._arrays import Array, plain, real, whole
-from ._domain import Domain, _restored
+from ._domain import AccuracyLike, Domain, _restored
+from ._geodesics import places_of, shortened, traced
 from ._interop import arrays_of, looks_like_mesh
 from ._metrics import described
 from ._progress import Progress, ProgressLike
+from ._results import Path
+from ._sides import inside as which_inside
+from ._sources import _GivenCurve
 from ._warnings import warn
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+
+    from ._sources import Place
 
 
 _USUAL = {"precision": "single", "triangulation": "auto"}
@@ -146,6 +152,69 @@ class Surface(_OfSimplices):
     ) -> None:
         self._build(V, F, lengths, vertices, metric, mask, merge, precision, triangulation, progress)
 
+    _across: Optional[Array] = None  # kept by `trace`
+
+    def trace(self, start: Place, direction: ArrayLike, length: float) -> Path:
+        """Straight ahead, whatever else may be nearer: the straightest geodesic. Where it meets a
+        vertex it leaves as much angle to its left as to its right.
+
+        Parameters
+        ----------
+        start : Place
+        direction : array_like of float, shape (3,)
+            In space, of any length: what of it lies in the surface.
+        length : float
+            How far.
+
+        Returns
+        -------
+        Path
+            From the start; shorter than `length` where it meets the boundary.
+        """
+        return traced(self, start, direction, length)
+
+    def shorten(self, path: Any, *, closed: bool = False) -> Path:
+        """Pulls a path tight as a rubber band: the locally shortest one that it can be moved to on
+        the surface, so that what leads around a handle or a hole still does.
+
+        Parameters
+        ----------
+        path : Path, or sequence of Place
+            Places are joined by shortest paths first.
+        closed : bool
+            The ends, which must be at one place, may move: a closed geodesic, or a point.
+
+        Returns
+        -------
+        Path
+        """
+        return shortened(self, path, closed)
+
+    def signed_distance(
+        self, curve: Any, *, inside: Optional[Place] = None, accuracy: AccuracyLike = None
+    ) -> Array:
+        """The distance of every vertex from closed curves, negative inside of them. Needs SciPy.
+
+        Parameters
+        ----------
+        curve : Path, list of Path, Polyline or sequence of Place
+            Isolines are paths; places are joined by shortest paths, the last and the first as well.
+        inside : Place, optional
+            A place on the inner side; without, that is the one with less area.
+        accuracy
+            As in `distance`.
+
+        Returns
+        -------
+        ndarray of float64, shape (n,)
+        """
+        several = isinstance(curve, (list, tuple)) and all(isinstance(c, Path) for c in curve)
+        curves = [places_of(self, c, True) for c in (curve if several else [curve])]
+        lines = [_GivenCurve(*c) for c in curves]
+        distance = self.distance(lines, accuracy=accuracy).astype(float)
+        inner = which_inside(self, curves, inside)
+        return np.where(inner, -distance, distance)
+
 
 class Solid(_OfSimplices):
     """Tetrahedra.
@@ -180,12 +249,13 @@ class Solid(_OfSimplices):
 
 
 class Wireframe(_OfSimplices):
-    """Edges: distances along them, as by Dijkstra's algorithm, and from points inside edges.
+    """Edges: distances along them, as by Dijkstra's algorithm, and from points inside edges. They lead
+    both ways: for directed graphs there is `scipy.sparse.csgraph.dijkstra`.
 
     Parameters
     ----------
     V : array_like of float, shape (n, 3) or (n, 2)
-        Or a mesh, as in `Surface`.
+        Or a mesh, as in `Surface`; or alone a symmetric sparse matrix of SciPy, the lengths of edges.
     E : array_like of int, shape (m, 2)
     lengths : array_like of float, shape (m,), optional
         In the place of `V`.
@@ -208,7 +278,24 @@ class Wireframe(_OfSimplices):
         precision: str = "single",
         progress: ProgressLike = None,
     ) -> None:
+        if hasattr(V, "tocoo") and E is None:
+            V, E, lengths, vertices = None, *_edges_of(V)
         self._build(V, E, lengths, vertices, metric, mask, merge, precision, "auto", progress)
+
+
+def _edges_of(graph: Any) -> Tuple[Array, Array, int]:
+    """Edges, their lengths and how many vertices there are, of a matrix of SciPy."""
+    if graph.shape[0] != graph.shape[1]:
+        raise ValueError(f"Wireframe: expected a square matrix, got shape {graph.shape}")
+    if (graph != graph.T).nnz:
+        raise _plexway.UsageError(
+            "the matrix is not symmetric: for directed graphs take scipy.sparse.csgraph.dijkstra; if "
+            "edges lead both ways, give graph.maximum(graph.T)"
+        )
+    upper = graph.tocoo()
+    once = upper.row <= upper.col
+    edges = np.stack([upper.row[once], upper.col[once]], axis=1)
+    return edges, upper.data[once].astype(float), graph.shape[0]
 
 
 class Cloud(Domain):

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Dict, List, Optional, Type, Union
+import tempfile
+import webbrowser
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Type, Union
 
 import numpy as np
 
@@ -22,7 +24,8 @@ from ._kinds import (
     _options_of,
 )
 from ._progress import Progress, ProgressLike
-from ._sources import Boundary, Polyline, Segment, WholeSimplex
+from ._results import Field, Path
+from ._sources import Boundary, Polyline, Segment, WholeSimplex, located
 from ._warnings import warn
 
 if TYPE_CHECKING:
@@ -182,6 +185,53 @@ def domain(V: Any, simplices: Optional[ArrayLike] = None, *, kind: Optional[str]
         kind = "simplices" if axes > 3 else by_corners.get(corners, "simplices")
     made: Any = _BY_KIND[kind]
     return made(V, **options) if kind == "cloud" else made(V, simplices, **options)  # type: ignore[no-any-return]
+
+
+def show(
+    thing: Union[Domain, Field],
+    distance: Optional[ArrayLike] = None,
+    *,
+    source: Any = None,
+    paths: Sequence[Union[Path, ArrayLike]] = (),
+    title: str = "distance",
+    map: str = "viridis",
+    file: Union[None, str, os.PathLike[str]] = None,
+) -> str:
+    """Opens a page in the browser, to turn and come nearer: one file that loads nothing.
+
+    Parameters
+    ----------
+    thing : Domain or Field
+        A field shows its distances.
+    distance : array_like of float, shape (n,), optional
+        Colours.
+    source, paths, title, map
+        As in `Domain.picture`.
+    file : path, optional
+        Where to write the page instead; then nothing is opened.
+
+    Returns
+    -------
+    str
+        The file.
+    """
+    if isinstance(thing, Field):
+        distance = thing.distance if distance is None else distance
+        thing = thing.domain
+    if not isinstance(thing, Domain):
+        raise TypeError(f"show: expected a domain or a field, got {type(thing).__name__}")
+    if file is None:
+        handle, out = tempfile.mkstemp(prefix="plexway-", suffix=".html")
+        os.close(handle)
+    else:
+        out = os.fspath(file)
+    marks = [] if source is None else located(thing, source)
+    lines = [p.points if isinstance(p, Path) else p for p in paths]
+    lines = [line for line in lines if line is not None and len(np.asarray(line))]
+    _plexway.page(thing._native, out, distance, marks, lines, title, map)
+    if file is None:
+        webbrowser.open("file://" + out)
+    return out
 
 
 _NEED_DOUBLE = (Segment, Polyline, WholeSimplex, Boundary)

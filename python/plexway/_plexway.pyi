@@ -30,7 +30,7 @@ class Cancelled(Error):
 
 
 _Report = Optional[Callable[[float], Any]]
-_Path = Tuple[Optional[Array], Array, Array, float, int]
+_Path = Tuple[Optional[Array], Array, Array, float, int, Array]
 
 class Point:
     def __init__(self, *place: Any) -> None: ...
@@ -45,11 +45,14 @@ class Point:
 
 class VertexSet:
     def __init__(self, vertices: Any, offsets: Any, offset: float) -> None: ...
+    @property
+    def points(self) -> List[Point]: ...
 
 class Ball:
     def __init__(self, centre: Point, radius: float, offset: float) -> None: ...
 
 class Curve:
+    def __init__(self, points: Sequence[Point], offset: float) -> None: ...
     @property
     def points(self) -> List[Point]: ...
 
@@ -205,6 +208,14 @@ def pairs_file(
 def path_field(
     domain: Domain, sources: Sequence[_Source], arguments: SolveArguments, progress: _Report
 ) -> Field: ...
+def find_paths(
+    domain: Domain,
+    sources: Sequence[_Source],
+    targets: Sequence[Point],
+    margin: Optional[float],
+    progress: _Report,
+) -> List[_Path]: ...
+def shortened(domain: Domain, points: Sequence[Point]) -> _Path: ...
 def isolines(domain: Domain, distance: Any, values: Any) -> List[_Path]: ...
 def isosurfaces(
     domain: Domain, distance: Any, values: Any
@@ -243,3 +254,12 @@ def picture(
     title: str,
     cut: bool,
 ) -> Array: ...
+def page(
+    domain: Domain,
+    file: str,
+    distance: Any,
+    sources: Sequence[Point],
+    paths: Sequence[Any],
+    title: str,
+    map: str,
+) -> None: ...

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import struct
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Iterator, List, Optional, Tuple, Union
 
 import numpy as np
 
-from ._arrays import Array
-from ._sources import Point, Vertex, located, place
+from ._arrays import Array, scipy_sparse
+from ._plexway import UsageError
+from ._sources import Point, Source, Vertex, located, place
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -20,9 +21,10 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Path:
+class Path(Source):
     """A path from a point back to the nearest source, straight in each simplex. It is empty, with a
-    length of ``inf``, where none exists.
+    length of ``inf``, where none exists. On surfaces and wireframes it is a source, too: all of its
+    line.
 
     Attributes
     ----------
@@ -37,6 +39,8 @@ class Path:
         Summed over the straight lines, in the unit of the domain.
     source : int
         The place of the source in the list of sources; -1 if there is no path.
+    corners : ndarray of int64, shape (p, 4)
+        The vertices that `barycentric` belongs to; -1 beyond the corners, and on a cloud's sheet.
     """
 
     points: Optional[Array]
@@ -44,9 +48,85 @@ class Path:
     barycentric: Array
     length: float
     source: int
+    corners: Array
 
     def __len__(self) -> int:
         return len(self.simplices)
+
+    @property
+    def vertices(self) -> Array:
+        """Which vertex each point is: int64, shape (p,); -1 for a point between vertices."""
+        found: Array = np.where(self.barycentric == 1, self.corners, -1).max(axis=1, initial=-1)
+        return found
+
+    def reversed(self, source: int) -> Path:
+        """The same path from its end to its start, to the source of this number."""
+        order = slice(None, None, -1)
+        simplices, b, corners = (a[order].copy() for a in (self.simplices, self.barycentric, self.corners))
+        for i in range(len(self) - 1):  # the line that begins here now lies in the next one's simplex
+            weight = {v: w for v, w in zip(corners[i].tolist(), b[i].tolist()) if w}
+            simplices[i], corners[i] = simplices[i + 1], corners[i + 1]
+            b[i] = [weight.get(v, 0.0) for v in corners[i].tolist()]
+        points = None if self.points is None else self.points[order].copy()
+        return Path(points, simplices, b, self.length, source, corners)
+
+    def measure(self, V: Any) -> Any:
+        """The length that the same points have in another place: the sum of straight lines between
+        them, on vertices at `V`.
+
+        `V` is an array of NumPy, a tensor of PyTorch, an array of JAX: whatever has an index, sums
+        and powers. The derivative of what is returned is that of the length of the shortest path.
+
+        Parameters
+        ----------
+        V : array or tensor, shape (n, axes)
+
+        Returns
+        -------
+        number, or tensor without axes
+        """
+        if len(self) < 2:
+            return (V[:1] * 0).sum() + self.length
+        tensor = getattr(V, "new_tensor", np.asarray)
+        used = [k for k in range(4) if np.any(self.barycentric[:, k])]
+        points = sum(
+            tensor(self.barycentric[:, k])[:, None] * V[np.maximum(self.corners[:, k], 0)]
+            for k in used
+        )
+        lines = (points[1:] - points[:-1])[np.flatnonzero(self._lines()[1])]
+        return ((lines**2).sum(-1) ** 0.5).sum()
+
+    def derivative(self) -> Tuple[Array, Array]:
+        """How its length changes when vertices move: exact, as the derivative of the distance
+        wherever there is a single shortest path.
+
+        Points on edges need not be followed: where the path crosses an edge it is shortest, so that
+        moving the crossing changes nothing. What counts is how the edge moves below it.
+
+        Returns
+        -------
+        vertices : ndarray of int64, shape (k,)
+            Those on which the path depends, ascending.
+        rows : ndarray of float64, shape (k, 3)
+            The derivative of the length with respect to the position of each.
+        """
+        line, length = self._lines()
+        straight = np.divide(line, length[:, None], out=np.zeros_like(line), where=length[:, None] > 0)
+        pull = np.zeros((len(self), 3))
+        pull[:-1] -= straight
+        pull[1:] += straight
+        used = self.barycentric != 0
+        vertices, place = np.unique(self.corners[used], return_inverse=True)
+        rows = np.zeros((len(vertices), 3))
+        np.add.at(rows, place, (self.barycentric[:, :, None] * pull[:, None, :])[used])
+        return vertices, rows
+
+    def _lines(self) -> Tuple[Array, Array]:
+        """From each point to the next, and how long that is."""
+        if self.points is None or np.any(self.corners[:, 0] < 0):
+            raise UsageError("the length of this path is no function of positions of vertices")
+        line = np.diff(self.points, axis=0)
+        return line, np.linalg.norm(line, axis=1)
 
     def __repr__(self) -> str:
         if not len(self):
@@ -210,9 +290,10 @@ class Field:
     Made by `Domain.field`. Any number of threads may use it at once.
     """
 
-    def __init__(self, domain: Domain, native: Any) -> None:
+    def __init__(self, domain: Domain, native: Any, owner: Optional[Array] = None) -> None:
         self._domain = domain
         self._native = native
+        self._owner = owner  # of each point of the field: which source it is of
 
     @property
     def domain(self) -> Domain:
@@ -250,7 +331,85 @@ class Field:
         -------
         Path
         """
-        return Path(*self._native.trace(place(self._domain, start), margin))
+        found = Path(*self._native.trace(place(self._domain, start), margin))
+        if self._owner is not None and found.source >= 0:
+            found = replace(found, source=int(self._owner[found.source]))
+        return found
+
+    def paths(self, starts: Any, *, margin: Optional[float] = None) -> List[Path]:
+        """The shortest paths from many places, in their order.
+
+        Parameters
+        ----------
+        starts
+            Vertices, points (k, 3), truth values, or a list of places.
+        margin : float, optional
+            As in `path`.
+        """
+        native = located(self._domain, starts, none_is_well=True)
+        return [self.path(start, margin=margin) for start in native]
+
+    @property
+    def label(self) -> Array:
+        """The place of the nearest source of each vertex in the list: int32, shape (n,); -1 where
+        none is reached."""
+        found: Array = self._native.label()
+        if self._owner is None:
+            return found
+        return np.append(self._owner, -1).astype(np.int32)[found]
+
+    def predecessors(self) -> Array:
+        """On a wireframe: the vertex before each on the shortest path from its source, as
+        `scipy.sparse.csgraph.dijkstra` has them.
+
+        Returns
+        -------
+        ndarray of int32, shape (n,)
+            -9999 at sources, next to a source inside an edge, and where none is reached.
+        """
+        if self._domain.kind != "wireframe":
+            raise UsageError("predecessors exist on wireframes: on other domains take a path")
+        native, d = self._domain._native, self.distance.astype(float)
+        found = np.full(len(d), -9999, np.int32)
+        left = np.isfinite(d)
+        if native.mask is None:
+            edges = native.all_simplices.astype(np.int64)
+            size = native.measured if native.measured is not None else native.lengths
+            if size is None:
+                size = np.linalg.norm(np.diff(native.positions[edges], axis=1)[:, 0], axis=1)
+            before, after = np.concatenate([edges, edges[:, ::-1]]).T
+            ways = d[before] + np.tile(size, 2)
+            good = (d[before] < d[after]) & (
+                ways <= d[after] * (1 + 8 * np.finfo(self.distance.dtype).eps)
+            )
+            order = np.flatnonzero(good)[np.argsort(-ways[good], kind="stable")]
+            found[after[order]] = before[order]  # the shortest comes last
+            left &= found < 0
+        for vertex in np.flatnonzero(left).tolist():  # sources, and along edges without length
+            way = self.path(vertex).vertices
+            found[vertex] = way[1] if len(way) > 1 else -9999
+        found[found < 0] = -9999
+        return found
+
+    def derivative(self, start: Place) -> Any:
+        """How the distance of `start` changes when vertices move: exact where there is a single
+        shortest path, with sources and `start` at rest on the simplices that they are in.
+
+        Parameters
+        ----------
+        start : Place
+
+        Returns
+        -------
+        scipy.sparse.csr_matrix, shape (1, 3 n)
+            Three columns a vertex. Needs SciPy; `Path.derivative` does without.
+        """
+        if self._domain._native.measured is not None:
+            raise UsageError("by a metric a distance is no function of positions alone")
+        vertices, rows = self.path(start).derivative()
+        columns = (3 * vertices[:, None] + np.arange(3)).ravel()
+        shape = (1, 3 * self._domain.vertex_count)
+        return scipy_sparse().csr_matrix((rows.ravel(), columns, [0, len(columns)]), shape=shape)
 
     def at(self, points: ArrayLike, *, level: str = "neighbours") -> Array:
         """Distances of any points of the domain.
@@ -279,6 +438,9 @@ class Field:
         """
         directions: Array = self._native.gradient()
         return directions
+
+    def _repr_html_(self) -> Optional[str]:
+        return self._domain._shown(self.distance)
 
     def __repr__(self) -> str:
         return f"plexway.Field(on {self._domain!r})"

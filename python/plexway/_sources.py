@@ -151,6 +151,14 @@ class Boundary(Source):
     offset: float = 0.0
 
 
+@dataclass(frozen=True, eq=False)
+class _GivenCurve(Source):
+    """Points of simplices, each in one with the next: what a path is as a source."""
+
+    simplices: Any
+    barycentric: Any
+
+
 class OutOfRange(_plexway.UsageError, IndexError):
     """A vertex or a simplex that the domain does not have."""
 
@@ -164,6 +172,17 @@ def index(value: Any, count: int, what: str) -> int:
     if not 0 <= number < count:
         raise OutOfRange(f"{what} {number}: there are {count}, counted from 0")
     return number
+
+
+def columns_of(domain: Any, columns: Any) -> Any:
+    """The vertices that are columns, or None for all; IndexError for one that does not exist."""
+    if columns is None:
+        return None
+    array = plain(columns, "columns")
+    if array.dtype.kind in "iu" and array.size:
+        for vertex in (array.min(), array.max()):
+            index(vertex, domain.vertex_count, "columns: vertex")
+    return array
 
 
 def _diagonal(domain: Any) -> float:
@@ -188,6 +207,8 @@ def _closest(domain: Any, xyz: List[float], planar: bool) -> Any:
 
 def place(domain: Any, at: Any) -> Any:
     """A single place as the library has it."""
+    if isinstance(at, _plexway.Point):
+        return at
     if isinstance(at, Vertex):
         return _plexway.Point(index(at.vertex, domain.vertex_count, "vertex"), float(at.offset))
     if isinstance(at, Point):
@@ -288,6 +309,9 @@ def _one(domain: Any, source: Source) -> Any:
     if isinstance(source, WholeSimplex):
         simplex = index(source.simplex, native.given_simplices, "simplex")
         return _plexway.WholeSimplex(simplex, float(source.offset))
+    if hasattr(source, "simplices"):  # a Path
+        rows = zip(source.simplices.tolist(), getattr(source, "barycentric").tolist())
+        return _plexway.Curve([_plexway.Point(simplex, b, 0.0) for simplex, b in rows], 0.0)
     if isinstance(source, Boundary):
         return native.boundary(float(source.offset))
     raise TypeError(f"{type(source).__name__} is no source that plexway knows")

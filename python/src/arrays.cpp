@@ -15,7 +15,7 @@ py::array as_array(const py::handle& object, const char* name) {
   py::array array = py::array::ensure(object);
   if (!array) {
     PyErr_Clear();
-    throw py::value_error(std::string(name) + ": expected an array of numbers");
+    throw py::type_error(std::string(name) + ": expected an array of numbers");
   }
   return array;
 }
@@ -25,8 +25,8 @@ py::array as_numbers(const py::handle& object, const char* name) {
   py::array array = as_array(object, name);
   const char kind = array.dtype().kind();
   if (kind != 'f' && kind != 'i' && kind != 'u')
-    throw py::value_error(std::string(name) + ": expected numbers, got dtype " +
-                          py::str(array.dtype()).cast<std::string>());
+    throw py::type_error(std::string(name) + ": expected numbers, got dtype " +
+                         py::str(array.dtype()).cast<std::string>());
   return array;
 }
 
@@ -62,8 +62,8 @@ py::array as_integers(const py::handle& object, const char* name, std::size_t co
   if (array.size() == 0 && array.ndim() == (columns == 0 ? 1 : 2)) return array;
   const char kind = array.dtype().kind();
   if (kind != 'i' && kind != 'u')
-    throw py::value_error(std::string(name) + ": expected integers, got dtype " +
-                          py::str(array.dtype()).cast<std::string>());
+    throw py::type_error(std::string(name) + ": expected integers, got dtype " +
+                         py::str(array.dtype()).cast<std::string>());
   const auto wanted = static_cast<py::ssize_t>(columns);
   if (columns == 0 ? array.ndim() != 1 : array.ndim() != 2 || array.shape(1) != wanted)
     throw py::value_error(std::string(name) + ": expected a shape " +

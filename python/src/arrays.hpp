@@ -14,7 +14,7 @@
 #include <plexway/common/ids.hpp>
 
 /// NumPy arrays in and out. What is wrong with an array is told by the name of the argument that it
-/// came as: ValueError, all of it.
+/// came as: TypeError for a type, ValueError for a shape and for numbers.
 namespace plexway::python {
 
 namespace py = pybind11;

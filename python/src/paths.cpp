@@ -1,11 +1,17 @@
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <plexway/error.hpp>
+#include <plexway/paths/shorten.hpp>
+#include <plexway/shape/complex.hpp>
 #include <plexway/shape/isolines.hpp>
+#include <plexway/shape/search.hpp>
 
 #include "arrays.hpp"
 #include "domain.hpp"
@@ -13,19 +19,25 @@
 namespace plexway::python {
 namespace {
 
-// (positions, or None in a domain without, simplices, barycentric, length, source)
-py::tuple told(Path path, bool placed) {
+// (positions, or None in a domain without, simplices, barycentric, length, source, corners)
+py::tuple told(const AnyShape& shape, Path path, bool placed) {
   std::vector<std::int64_t> simplices;
   std::vector<std::array<double, 4>> barycentric;
+  std::vector<std::array<std::int64_t, 4>> corners;
   for (const PathPoint& point : path.points) {
     simplices.push_back(point.simplex == none ? -1 : static_cast<std::int64_t>(point.simplex));
     barycentric.push_back(point.barycentric);
+    std::array<std::int64_t, 4>& row =
+        corners.emplace_back(std::array<std::int64_t, 4>{-1, -1, -1, -1});
+    if (point.simplex == none || shape.cloud() != nullptr) continue;
+    const std::span<const Index> vertices = shape.corners(point.simplex);
+    std::copy(vertices.begin(), vertices.end(), row.begin());
   }
   py::object positions = py::none();
   if (placed) positions = owned(std::move(path.positions));
-  return py::make_tuple(std::move(positions), owned(std::move(simplices)),
-                        owned(std::move(barycentric)), path.length,
-                        path.source == none ? -1 : static_cast<std::int64_t>(path.source));
+  return py::make_tuple(
+      std::move(positions), owned(std::move(simplices)), owned(std::move(barycentric)), path.length,
+      path.source == none ? -1 : static_cast<std::int64_t>(path.source), owned(std::move(corners)));
 }
 
 ReadOut level_of(const std::string& name) {
@@ -81,6 +93,47 @@ py::array distance(const std::shared_ptr<Field>& field) {
       of.data);
 }
 
+// To each target without looking at all of a surface.
+py::list find_paths(const Domain& domain, const std::vector<PointSource>& sources,
+                    const std::vector<PointSource>& targets, const std::optional<double>& margin,
+                    py::object progress) {
+  Watch watch(std::move(progress));
+  SearchOptions options{.trace = {.margin = margin}, .progress = watch.of_propagation()};
+  SearchResult found =
+      watch.run([&] { return plexway::find_paths(domain.any(), sources, targets, options); });
+  py::list list;
+  for (Path& path : found.paths)
+    list.append(told(domain.shape(), std::move(path), !domain.shape().positions().empty()));
+  return list;
+}
+
+// Pulled tight, on the triangles of the shape.
+py::tuple shortened(const Domain& domain, const std::vector<PointSource>& points) {
+  const auto positions = domain.shape().positions();
+  Path path;
+  {
+    const py::gil_scoped_release free;
+    std::vector<PathPoint> inside;
+    for (const PointSource& point : points) {
+      const PointSource at = domain.inside(point);
+      inside.push_back({at.simplex, at.barycentric});
+    }
+    with_complex(domain.any(), [&](const auto& mesh) {
+      if constexpr (std::decay_t<decltype(mesh)>::kind == DomainKind::surface)
+        path = plexway::shortened(mesh, inside,
+                                  domain.any().lengths() ? decltype(positions){} : positions);
+      else
+        throw UsageError("paths are shortened on surfaces");
+    });
+    if (const OpenSimplices* const open = domain.any().open_simplices()) open->outside(path);
+    if (path.positions.empty() && !positions.empty())  // lengths by a metric
+      for (const PathPoint& at : path.points)
+        path.positions.push_back(
+            domain.shape().position({.simplex = at.simplex, .barycentric = at.barycentric}));
+  }
+  return told(domain.shape(), std::move(path), !positions.empty());
+}
+
 py::list isolines(const Domain& domain, const py::object& distance, const py::object& values) {
   const std::vector<double> field = numbers_of(distance, "distance");
   const std::vector<double> wanted = numbers_of(values, "values");
@@ -92,7 +145,7 @@ py::list isolines(const Domain& domain, const py::object& distance, const py::ob
   py::list list;
   for (Path& line : lines) {
     const bool placed = !line.positions.empty();
-    list.append(told(std::move(line), placed));
+    list.append(told(domain.shape(), std::move(line), placed));
   }
   return list;
 }
@@ -117,7 +170,7 @@ void bind_paths(py::module_& module) {
       .def_property_readonly("notes", [](const Field& f) { return texts_of(warnings(f)); })
       .def_property_readonly("doubts", [](const Field& f) { return doubts_of(f.told); })
       .def_property_readonly("bytes", [](const Field& f) { return f.any.bytes(); })
-      .def("label", [](const Field& f) { return owned(f.any.field().file_label()); })
+      .def("label", [](const Field& f) { return owned(f.any.field().nearest()); })
       .def("trace",
            [](const Field& f, const PointSource& point, const std::optional<double>& margin) {
              Path path;
@@ -127,7 +180,7 @@ void bind_paths(py::module_& module) {
              }
              const bool placed = path.points.empty() ? !f.domain->shape().positions().empty()
                                                      : !path.positions.empty();
-             return told(std::move(path), placed);
+             return told(f.domain->shape(), std::move(path), placed);
            })
       .def("at",
            [](const Field& f, const std::vector<PointSource>& points, const std::string& level) {
@@ -148,6 +201,8 @@ void bind_paths(py::module_& module) {
         return owned(std::move(directions));
       });
   module.def("path_field", &path_field);
+  module.def("find_paths", &find_paths);
+  module.def("shortened", &shortened);
   module.def("isolines", &isolines);
   module.def("isosurfaces", &isosurfaces);
 }

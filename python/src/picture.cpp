@@ -1,15 +1,19 @@
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <plexway/error.hpp>
+#include <plexway/io/page.hpp>
 #include <plexway/shape/scene.hpp>
 #include <plexway/shape/support.hpp>
 
 #include "arrays.hpp"
 #include "domain.hpp"
+#include "shape/shape_page.hpp"
 
 #ifdef PLEXWAY_HAS_RENDER
 #include <plexway/render/picture.hpp>
@@ -64,8 +68,30 @@ py::object picture(const py::args&) {
 
 #endif
 
+// One file of HTML, to turn and come nearer in a browser.
+void page(const Domain& domain, const std::filesystem::path& file, const py::object& distance,
+          const std::vector<PointSource>& sources, const py::list& paths, const std::string& title,
+          const std::string& map) {
+  std::vector<double> value;
+  if (!distance.is_none()) value = numbers_of(distance, "distance");
+  SceneContent content;
+  content.distance = value;
+  for (const PointSource& source : sources)
+    content.sources.push_back(domain.shape().position(source));
+  for (const py::handle& path : paths) content.paths.push_back(points_of(path, "paths"));
+  const py::gil_scoped_release free;
+  io::Page page;
+  fill_page(page, domain.open(), content);
+  page.title = title;
+  page.map = map;
+  io::write_page(file, page);
+}
+
 }  // namespace
 
-void bind_picture(py::module_& module) { module.def("picture", &picture); }
+void bind_picture(py::module_& module) {
+  module.def("picture", &picture);
+  module.def("page", &page);
+}
 
 }  // namespace plexway::python

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -61,13 +62,24 @@ void bind_sources(py::module_& module) {
              }
              return source;
            }),
-           py::arg("vertices"), py::arg("offsets"), py::arg("offset"));
+           py::arg("vertices"), py::arg("offsets"), py::arg("offset"))
+      .def_property_readonly("points", [](const VertexSource& set) {
+        std::vector<PointSource> points;
+        for (std::size_t i = 0; i < set.vertices.size(); ++i)
+          points.push_back({.vertex = set.vertices[i],
+                            .offset = set.offset + (set.offsets.empty() ? 0 : set.offsets[i])});
+        return points;
+      });
   py::class_<BallSource>(module, "Ball")
       .def(py::init([](const PointSource& centre, double radius, double offset) {
              return BallSource{.centre = centre, .radius = radius, .offset = offset};
            }),
            py::arg("centre"), py::arg("radius"), py::arg("offset"));
   py::class_<CurveSource>(module, "Curve")
+      .def(py::init([](std::vector<PointSource> points, double offset) {
+             return CurveSource{.points = std::move(points), .offset = offset};
+           }),
+           py::arg("points"), py::arg("offset"))
       .def_property_readonly("points", [](const CurveSource& curve) { return curve.points; });
   py::class_<SimplexSource>(module, "WholeSimplex")
       .def(py::init([](Index simplex, double offset) {

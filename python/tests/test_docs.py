@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 import plexway as px
-from plexway import _domain, _kinds, _make, _metrics, _results, _sources
+from plexway import _domain, _grid, _kinds, _make, _metrics, _results, _sources
 
 SOURCE = Path(os.environ.get("PLEXWAY_SOURCE_DIR", Path(__file__).parents[2]))
 
 
-@pytest.mark.parametrize("module", [px, _domain, _kinds, _make, _metrics, _results, _sources])
+@pytest.mark.parametrize("module", [px, _domain, _grid, _kinds, _make, _metrics, _results, _sources])
 def test_docstrings(module):
     assert doctest.testmod(module).failed == 0
 

@@ -7,15 +7,6 @@
 #include <vector>
 
 namespace plexway {
-namespace {
-
-/// From the caller's corners to those inside of a triangle that may run the other way, and back.
-std::array<double, 3> turned(const std::array<double, 3>& b, bool other_way) {
-  return {b[0], b[other_way ? 2 : 1], b[other_way ? 1 : 2]};
-}
-
-}  // namespace
-
 template <class Real>
 std::vector<StraightPiece> laid_on(const TriangleMesh<Real>& input,
                                    const IntrinsicDelaunay& delaunay,
@@ -44,7 +35,7 @@ void LaidPaths<Real>::go_on(std::vector<Strip>& strips, Index face) const {
   if (last == face) return;
   std::optional<Crossing> over;
   for (std::size_t e = 0; e < 3; ++e)
-    across_edge(input_, last, e, [&](const Crossing& c) {
+    across_edge(mesh_, last, e, [&](const Crossing& c) {
       const bool nearer = !over || strip.end[edge_before(e)] < strip.end[edge_before(over->from)];
       if (c.face == face && nearer) over = c;
     });
@@ -60,7 +51,7 @@ void LaidPaths<Real>::go_on(std::vector<Strip>& strips, Index face) const {
             [&](std::size_t i, std::size_t k) { return strip.end[i] > strip.end[k]; });
   for (std::size_t n = 0; n < reached.size() && came.count(face) == 0; ++n)
     for (const std::size_t i : order) {
-      input_.corners_at(input_.triangles()[reached[n]].corner[i], corners);
+      mesh_.corners_at(mesh_.triangles()[reached[n]].corner[i], corners);
       for (const Index c : corners)
         if (came.try_emplace(c / 3, 3 * reached[n] + static_cast<Index>(i), c).second)
           reached.push_back(c / 3);
@@ -77,24 +68,24 @@ void LaidPaths<Real>::go_on(std::vector<Strip>& strips, Index face) const {
 }
 
 template <class Real>
-Path LaidPaths<Real>::lay(const TriangleMesh<Real>& mesh, const PulledWay& way,
-                          const PointSource& from, const PointSource& to) const {
+Path LaidPaths<Real>::lay(std::span<const StraightPiece> lines, const PointSource& from,
+                          const PointSource& to) const {
   std::vector<Strip> strips;
   // A vertex is in whatever triangle the path is in beside it.
   const auto go_to = [&](const PointSource& point, Index beside) {
     Index face = beside;
     std::array<double, 3> at = {};
     if (point.vertex == none) {
-      const auto [own, runs_back] = input_.inside_face(point.simplex);
+      const auto [own, runs_back] = mesh_.inside_face(point.simplex);
       face = own;
       at = turned({point.barycentric[0], point.barycentric[1], point.barycentric[2]}, runs_back);
     } else {
-      const Index vertex = input_.inside_vertex(point.vertex);
+      const Index vertex = mesh_.inside_vertex(point.vertex);
       const auto corner_in = [&](Index f) {
-        const auto& corner = input_.triangles()[f].corner;
+        const auto& corner = mesh_.triangles()[f].corner;
         return static_cast<std::size_t>(std::find(corner, corner + 3, vertex) - corner);
       };
-      if (corner_in(face) == 3) face = input_.corner_at(vertex) / 3;
+      if (corner_in(face) == 3) face = mesh_.corner_at(vertex) / 3;
       at = at_corner(corner_in(face));
     }
     if (strips.empty()) {
@@ -105,18 +96,13 @@ Path LaidPaths<Real>::lay(const TriangleMesh<Real>& mesh, const PulledWay& way,
     go_on(strips, face);
     strips.back().end = at;
   };
-  for (const StraightPiece& line : StripPaths<Real>::pieces(way)) {
-    for (const StraightPiece& piece : laid_on(input_, delaunay_, mesh, line)) {
-      if (strips.empty()) go_to(from, piece.face);
-      go_on(strips, piece.face);
-      strips.back().end = piece.to;
-    }
+  for (const StraightPiece& line : lines) {
+    if (strips.empty()) go_to(from, line.face);
+    go_on(strips, line.face);
+    strips.back().end = line.to;
   }
   go_to(to, strips.back().last());
-  PulledWay laid = strips_.straighten(strips_.joined(std::move(strips), way.source));
-  laid.windows = way.windows;
-  laid.capped = way.capped;
-  return strips_.to_path(laid);
+  return strips_.to_path(strips_.straighten(strips_.joined(std::move(strips), none)));
 }
 
 template class LaidPaths<float>;

@@ -13,6 +13,11 @@
 
 namespace plexway {
 
+/// From the caller's corners to those inside of a triangle that may run the other way, and back.
+inline std::array<double, 3> turned(const std::array<double, 3>& b, bool other_way) {
+  return {b[0], b[other_way ? 2 : 1], b[other_way ? 1 : 2]};
+}
+
 /// A straight line in a triangle of `mesh`, which is delaunay.mesh(), as lines in those of the
 /// input, in order. Numbers inside.
 template <class Real>
@@ -21,28 +26,26 @@ template <class Real>
                                                  const TriangleMesh<Real>& mesh,
                                                  const StraightPiece& line);
 
-/// Lays paths of an intrinsic Delaunay triangulation on the triangles of its input.
-///
-/// Each straight line in one of its triangles is a row of lines in those of the input, and they a
-/// strip. That is pulled in the input's own lengths: so the path is as straight as these allow, and
-/// crosses each edge once, though the triangulation has its lengths by rounding alone.
+/// Makes a strip of straight lines in triangles, one after the other, and pulls it straight: what
+/// lines of an intrinsic Delaunay triangulation become in the triangles of its input, and any path
+/// that is given. So the path is as straight as the surface's own lengths allow, and crosses each
+/// edge once, though the lines may have been off by rounding.
 template <class Real>
 class LaidPaths {
  public:
-  /// `positions` and `outer` are those of the input, as StripPaths takes them. Refers to all.
-  LaidPaths(const TriangleMesh<Real>& input, const IntrinsicDelaunay& delaunay,
-            std::span<const std::array<double, 3>> positions, std::span<const Index> outer)
-      : input_(input), delaunay_(delaunay), strips_(input, positions, outer) {}
+  /// `positions` and `outer` as StripPaths takes them. Refers to all.
+  LaidPaths(const TriangleMesh<Real>& mesh, std::span<const std::array<double, 3>> positions,
+            std::span<const Index> outer)
+      : mesh_(mesh), strips_(mesh, positions, outer) {}
 
-  /// `way` is one of `mesh`, which is delaunay.mesh(), between two points of the input.
-  [[nodiscard]] Path lay(const TriangleMesh<Real>& mesh, const PulledWay& way,
-                         const PointSource& from, const PointSource& to) const;
+  /// Lines by numbers inside, from one point to another by the caller's.
+  [[nodiscard]] Path lay(std::span<const StraightPiece> lines, const PointSource& from,
+                         const PointSource& to) const;
 
  private:
   void go_on(std::vector<Strip>& strips, Index face) const;
 
-  const TriangleMesh<Real>& input_;
-  const IntrinsicDelaunay& delaunay_;
+  const TriangleMesh<Real>& mesh_;
   StripPaths<Real> strips_;
 };
 

@@ -248,8 +248,16 @@ Path PathField<Domain<Real>>::trace(const PointSource& point, const TraceOptions
       if (delaunay_ == nullptr) return trace.trace(at, options);
       const PulledWay way = trace.find(delaunay_->to_intrinsic(at), options);
       if (way.source == none) return {};
-      return LaidPaths<Real>(*given_, *delaunay_, positions_, given_outer())
-          .lay(*domain_, way, at, given_sources_[way.source]);
+      std::vector<StraightPiece> lines;
+      for (const StraightPiece& line : StripPaths<Real>::pieces(way))
+        for (const StraightPiece& piece : laid_on(*given_, *delaunay_, *domain_, line))
+          lines.push_back(piece);
+      Path path = LaidPaths<Real>(*given_, positions_, given_outer())
+                      .lay(lines, at, given_sources_[way.source]);
+      path.source = way.source;
+      path.windows = way.windows;
+      path.capped = way.capped;
+      return path;
     } else {
       return trace_in(*domain_, solved, at);
     }

@@ -390,11 +390,7 @@ PointSource AnyShape::closest(const std::array<double, 3>& point) const {
   if (cloud() != nullptr) return nearest_of_points(positions(), point);
   if (simplices() == 0) throw UsageError("there is no simplex to be close to");
   const SimplexPoint found = closest_of(*this, point);
-  const auto at = corners(found.simplex);
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    if (found.barycentric[i] >= corner_share) return PointSource::at(at[i]);
-  }
-  return PointSource::in(static_cast<Index>(found.simplex), found.barycentric);
+  return source_at(found, corners(found.simplex));
 }
 
 std::array<double, 3> AnyShape::position(const PointSource& source) const {

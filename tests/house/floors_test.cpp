@@ -27,7 +27,9 @@ const std::map<std::string, int> floor_of_name = {
     {"sampling", 5},       {"pairs", 5},       {"io", 6},
     {"render", 6},         {"mpi", 6},         {"shape", 7},
     {"any_domain.hpp", 7}, {"tool", 8},        {"tool_mpi", 8},
-    {"plexway.hpp", 8},
+    {"plexway.hpp", 8},    {"surface.hpp", 6}, {"solid.hpp", 6},
+    {"wireframe.hpp", 6},  {"cloud.hpp", 6},   {"mixed.hpp", 6},
+    {"simplices.hpp", 6},
 };
 // Beside these: what brings another library along.
 const std::vector<std::string> providers = {

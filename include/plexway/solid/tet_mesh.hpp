@@ -13,6 +13,7 @@
 #include <plexway/common/detail/rows.hpp>
 #include <plexway/common/detail/unfilled.hpp>
 #include <plexway/common/ids.hpp>
+#include <plexway/common/rows_of.hpp>
 #include <plexway/domain/concept.hpp>
 #include <plexway/solid/detail/tet_record.hpp>
 
@@ -73,6 +74,13 @@ class TetMesh {
   /// not depend on. Cost: about 0.3 us a tetrahedron on one.
   TetMesh(std::span<const std::array<double, 3>> positions,
           std::span<const std::array<Index, 4>> tets, int threads = 0);
+
+  /// From arrays of any kind (rows_of), as TriangleMesh.
+  template <class Points, class Tets>
+  requires(OtherRows<Points, Tets, 4>)
+      TetMesh(const Points& positions, const Tets& tets, int threads = 0)
+      : TetMesh(std::span<const std::array<double, 3>>(rows_of<double, 3>(positions)),
+                std::span<const std::array<Index, 4>>(rows_of<Index, 4>(tets)), threads) {}
 
   /// From intrinsic lengths: lengths[t] are those of the edges (0,1) (0,2) (1,2) (0,3) (1,3) (2,3)
   /// of tetrahedron t, and must be the same wherever an edge occurs (up to rounding; not checked).

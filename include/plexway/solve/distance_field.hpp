@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <plexway/common/ids.hpp>
@@ -47,6 +48,26 @@ struct DistanceField {
   bool complete = true;                  ///< false if max_expansions, or limits of ours, ended it
   /// The work that it took.
   PropagateStatistics statistics;
+
+  /// How many vertices.
+  [[nodiscard]] std::size_t size() const { return distance.size(); }
+  /// How far vertex v is from the nearest source.
+  [[nodiscard]] Real operator[](std::size_t v) const { return distance[v]; }
+  ///@{
+  /// The distances, vertex by vertex.
+  [[nodiscard]] auto begin() const { return distance.begin(); }
+  [[nodiscard]] auto end() const { return distance.end(); }
+  ///@}
+  /// Does a path lead to vertex v, within the radius?
+  [[nodiscard]] bool reached(std::size_t v) const {
+    return distance[v] < std::numeric_limits<Real>::infinity();
+  }
+  /// The nearest source of vertex v, by its place in the list of sources, also of a single one;
+  /// none where unreached.
+  [[nodiscard]] Index label_of(std::size_t v) const {
+    if (!label.empty()) return label[v];
+    return reached(v) ? 0 : none;
+  }
 };
 
 }  // namespace plexway

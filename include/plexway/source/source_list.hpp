@@ -2,22 +2,29 @@
 
 #include <concepts>
 #include <cstddef>
+#include <initializer_list>
 #include <ranges>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include <plexway/error.hpp>
 #include <plexway/source/source.hpp>
 
 namespace plexway {
 
 /// The sources of a solve: one or many, points or of any kind. A single one is copied, and so are
-/// rows that would be gone after this line; other rows are referred to, and must stay:
+/// what stands in braces and rows that would be gone after this line; other rows are referred to,
+/// and must stay:
 ///
 /// @code
+///   solve(executor, domain, 7);                             // a vertex
+///   solve(executor, domain, {7, 9});                        // the nearer of two
 ///   solve(executor, domain, PointSource::at(7));
+///   solve(executor, domain, {PointSource::in(3, {.5, .5, 0}), BallSource{...}});
 ///   solve(executor, domain, points);                        // std::vector<PointSource>
 ///   solve(executor, domain, VertexSource{.vertices = rim});
 ///   solve(executor, domain, sources);                       // std::vector<Source>
@@ -32,6 +39,17 @@ class SourceList {
       std::is_lvalue_reference_v<Range> || std::ranges::borrowed_range<Range>;
 
  public:
+  /// A vertex. UsageError for a number below 0.
+  template <std::integral Vertex>
+  requires(!std::same_as<Vertex, bool>) SourceList(Vertex vertex) : held_(vertex_at(vertex)) {}
+  ///@{
+  /// What stands in braces, copied: vertices, points, sources of any kind.
+  SourceList(std::initializer_list<int> vertices) : held_(std::vector<PointSource>()) {
+    for (const int v : vertices) std::get<std::vector<PointSource>>(held_).push_back(vertex_at(v));
+  }
+  SourceList(std::initializer_list<PointSource> points) : held_(std::vector(points)) {}
+  SourceList(std::initializer_list<Source> sources) : held_(std::vector(sources)) {}
+  ///@}
   /// One point.
   SourceList(const PointSource& one) : held_(one) {}
   /// One source of any kind: a set, ball, curve or simplex.
@@ -73,6 +91,12 @@ class SourceList {
   }
 
  private:
+  template <std::integral Vertex>
+  static PointSource vertex_at(Vertex vertex) {
+    if (!std::in_range<Index>(vertex) || static_cast<Index>(vertex) == none)
+      throw UsageError("source vertex " + std::to_string(vertex) + " is out of range");
+    return PointSource::at(static_cast<Index>(vertex));
+  }
   template <class Element>
   [[nodiscard]] std::span<const Element> row() const {
     if (const auto* one = std::get_if<Element>(&held_)) return {one, 1};

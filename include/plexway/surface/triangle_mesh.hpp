@@ -11,6 +11,7 @@
 #include <plexway/common/detail/rows.hpp>
 #include <plexway/common/detail/unfilled.hpp>
 #include <plexway/common/ids.hpp>
+#include <plexway/common/rows_of.hpp>
 #include <plexway/domain/concept.hpp>
 #include <plexway/surface/detail/triangle_record.hpp>
 
@@ -121,6 +122,14 @@ class TriangleMesh {
   /// several.
   TriangleMesh(std::span<const std::array<double, 3>> positions,
                std::span<const std::array<Index, 3>> faces, const SurfaceHints& hints = {});
+
+  /// From arrays of any kind (rows_of): std::vector<std::array<float, 3>>, Eigen's matrices,
+  /// numbers in a row. What is not as above is copied for a while.
+  template <class Points, class Faces>
+  requires(OtherRows<Points, Faces, 3>)
+      TriangleMesh(const Points& positions, const Faces& faces, const SurfaceHints& hints = {})
+      : TriangleMesh(std::span<const std::array<double, 3>>(rows_of<double, 3>(positions)),
+                     std::span<const std::array<Index, 3>>(rows_of<Index, 3>(faces)), hints) {}
 
   /// From intrinsic lengths: lengths[f][i] is the length of the edge from corner i of face f to the
   /// next, and must be the same from both sides (but for 1e-5, of which the mean is taken;

@@ -9,6 +9,7 @@
 #include <plexway/common/detail/identity.hpp>
 #include <plexway/common/detail/rows.hpp>
 #include <plexway/common/ids.hpp>
+#include <plexway/common/rows_of.hpp>
 #include <plexway/domain/concept.hpp>
 
 namespace plexway {
@@ -61,6 +62,12 @@ class Wireframe {
   /// vertex.
   Wireframe(std::span<const std::array<double, 3>> positions,
             std::span<const std::array<Index, 2>> edges);
+
+  /// From arrays of any kind (rows_of), as TriangleMesh.
+  template <class Points, class Edges>
+  requires(OtherRows<Points, Edges, 2>) Wireframe(const Points& positions, const Edges& edges)
+      : Wireframe(std::span<const std::array<double, 3>>(rows_of<double, 3>(positions)),
+                  std::span<const std::array<Index, 2>>(rows_of<Index, 2>(edges))) {}
 
   /// From one length an edge. Throws as above, and for a length that is negative or not finite.
   Wireframe(std::size_t vertices, std::span<const std::array<Index, 2>> edges,

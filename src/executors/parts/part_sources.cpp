@@ -177,12 +177,11 @@ PartPoint nearest_on(const Team& team, const PartPieces<Real>& pieces,
     const std::array<std::array<double, 3>, 3> at = {positions[corner[0]], positions[corner[1]],
                                                      positions[corner[2]]};
     constexpr std::array<std::array<std::uint32_t, 3>, 1> alone = {{{0, 1, 2}}};
-    const SimplexPoint place = closest_point(at, alone, seen);
-    best = {numbers[first], distances[i][first] * pieces.unit(),
-            PointSource::in(numbers[first], place.barycentric)};
-    for (std::size_t c = 0; c < 3; ++c)
-      if (place.barycentric[c] >= corner_share)
-        best.source = PointSource::at(part.vertices[corner[c]]);
+    SimplexPoint place = closest_point(at, alone, seen);
+    place.simplex = numbers[first];
+    const std::array<Index, 3> ends = {part.vertices[corner[0]], part.vertices[corner[1]],
+                                       part.vertices[corner[2]]};
+    best = {numbers[first], distances[i][first] * pieces.unit(), source_at(place, ends)};
   }
   PartMail mail(team.ranks());
   for (std::size_t r = 0; r < mail.count(); ++r) mail.to(r).add(best);

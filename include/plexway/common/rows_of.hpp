@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <ranges>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <plexway/common/ids.hpp>
+#include <plexway/error.hpp>
+
+namespace plexway {
+
+/// Has rows and columns, and m(i, j) is a number: a matrix of Eigen, in either order.
+template <class M>
+concept MatrixLike = requires(const M& m) {
+  { m.rows() } -> std::convertible_to<std::size_t>;
+  { m.cols() } -> std::convertible_to<std::size_t>;
+  requires std::is_arithmetic_v<std::remove_cvref_t<decltype(m(0, 0))>>;
+};
+
+/// What points and simplices may be given as: a matrix with a row each; a range of ranges, such as
+/// std::vector<std::array<float, 3>>; or the numbers of all rows one after the other.
+template <class R>
+concept RowsOfNumbers = MatrixLike<R> ||
+    (std::ranges::forward_range<const R>&& requires(std::ranges::range_reference_t<const R> one) {
+      requires std::is_arithmetic_v<std::remove_cvref_t<decltype(one)>> ||
+          std::is_arithmetic_v<std::remove_cvref_t<std::ranges::range_reference_t<decltype(one)>>>;
+    });
+
+namespace detail {
+
+template <class T, class Number>
+T as_number(Number number, std::size_t row) {
+  if constexpr (std::same_as<T, Index>) {
+    static_assert(std::integral<Number>, "vertices are integers");
+    if (!std::in_range<Index>(number))
+      throw InputError("row " + std::to_string(row) + ": " + std::to_string(number) +
+                       " is no number of a vertex");
+  }
+  return static_cast<T>(number);
+}
+
+}  // namespace detail
+
+/// Rows of N numbers, of whatever they are given as, copied. Throws InputError for rows of another
+/// length, and for an integer that is no number of a vertex. Cost: linear.
+template <class T, std::size_t N, RowsOfNumbers R>
+[[nodiscard]] std::vector<std::array<T, N>> rows_of(const R& given) {
+  std::vector<std::array<T, N>> rows;
+  const auto expect = [&](bool right) {
+    if (!right)
+      throw InputError("row " + std::to_string(rows.size()) + ": expected " + std::to_string(N) +
+                       " numbers");
+  };
+  if constexpr (MatrixLike<R>) {
+    expect(static_cast<std::size_t>(given.cols()) == N || given.rows() == 0);
+    for (decltype(given.rows()) i = 0; i < given.rows(); ++i) {
+      std::array<T, N> row;
+      for (std::size_t k = 0; k < N; ++k)
+        row[k] =
+            detail::as_number<T>(given(i, static_cast<decltype(given.cols())>(k)), rows.size());
+      rows.push_back(row);
+    }
+  } else {
+    using Element = std::remove_cvref_t<std::ranges::range_reference_t<const R>>;
+    const auto take = [&](auto& at, auto end) {
+      std::array<T, N> row;
+      for (T& number : row) {
+        expect(at != end);
+        number = detail::as_number<T>(*at++, rows.size());
+      }
+      return row;
+    };
+    if constexpr (std::is_arithmetic_v<Element>) {
+      auto at = std::ranges::begin(given);
+      while (at != std::ranges::end(given)) rows.push_back(take(at, std::ranges::end(given)));
+    } else {
+      for (const auto& one : given) {
+        auto at = std::ranges::begin(one);
+        const auto row = take(at, std::ranges::end(one));
+        expect(at == std::ranges::end(one));
+        rows.push_back(row);
+      }
+    }
+  }
+  return rows;
+}
+
+/// Is it what a constructor takes without a copy?
+template <class R, class T, std::size_t N>
+concept PlainRows = std::convertible_to<const R&, std::span<const std::array<T, N>>>;
+
+/// Points and simplices of N corners of which at least one is to be copied.
+template <class Points, class Simplices, std::size_t N>
+concept OtherRows = RowsOfNumbers<Points> && RowsOfNumbers<Simplices> &&
+    !(PlainRows<Points, double, 3> && PlainRows<Simplices, Index, N>);
+
+}  // namespace plexway

@@ -1,0 +1,69 @@
+#include <plexway/common/rows_of.hpp>
+#include <plexway/solid/tet_mesh.hpp>
+#include <plexway/solve.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
+#include <plexway/wireframe/wireframe.hpp>
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <list>
+#include <utility>
+#include <vector>
+
+namespace plexway::testing::rows_of_test {
+
+namespace {
+
+// What of Eigen's matrices counts, in either order.
+template <class T, bool by_columns>
+struct Matrix {
+  std::vector<T> numbers;
+  int height, width;
+  int rows() const { return height; }
+  int cols() const { return width; }
+  const T& operator()(int i, int k) const {
+    return numbers[static_cast<std::size_t>(by_columns ? k * height + i : i * width + k)];
+  }
+};
+
+template <class Mesh>
+std::vector<double> from_first(const Mesh& mesh) {
+  const auto field = solve(Serial{}, mesh, 0);
+  return {field.begin(), field.end()};
+}
+
+}  // namespace
+
+TEST_CASE("points and simplices of any array") {
+  const std::vector<double> truth = {0, 4, 5, 3};
+  const std::vector<std::array<float, 3>> singles = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}};
+  const std::vector<std::array<double, 3>> doubles = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}};
+  const std::vector<std::int64_t> flat = {0, 1, 2, 0, 2, 3};
+  const std::list<std::vector<short>> rows = {{0, 1, 2}, {0, 2, 3}};
+  const Matrix<float, true> eigen = {{0, 4, 4, 0, 0, 0, 3, 3, 0, 0, 0, 0}, 4, 3};
+  const Matrix<int, false> other = {{0, 1, 2, 0, 2, 3}, 2, 3};
+  CHECK(from_first(TriangleMesh<double>(singles, flat)) == truth);
+  CHECK(from_first(TriangleMesh<double>(doubles, rows)) == truth);
+  CHECK(from_first(TriangleMesh<double>(eigen, other)) == truth);
+  CHECK(from_first(TriangleMesh<float>(std::span(doubles), flat, {.threads = 1})) == truth);
+  CHECK(from_first(Wireframe<double>(singles, std::vector<int>{0, 1, 1, 2})) ==
+        std::vector<double>{0, 4, 7, std::numeric_limits<double>::infinity()});
+  const std::vector<int> coordinates = {0, 0, 0, 4, 0, 0, 4, 3, 0, 0, 0, 3};
+  CHECK(from_first(TetMesh<double>(coordinates, std::vector<int>{0, 1, 2, 3})) == truth);
+}
+
+TEST_CASE("rows that are none are refused") {
+  const auto three = [](const auto& rows) { return rows_of<Index, 3>(rows); };
+  CHECK_THROWS_WITH(three(std::vector<int>{0, 1, 2, 3}), "row 1: expected 3 numbers");
+  CHECK_THROWS_WITH(three(std::vector<std::array<int, 2>>{{0, 1}}), "row 0: expected 3 numbers");
+  CHECK_THROWS_WITH(three(std::vector<std::array<int, 4>>{{0, 1, 2, 3}}),
+                    "row 0: expected 3 numbers");
+  CHECK_THROWS_WITH(three(std::vector<int>{0, 1, -2}), "row 0: -2 is no number of a vertex");
+  CHECK_THROWS_WITH(three(std::vector<std::int64_t>{0, 1, std::int64_t{1} << 32}),
+                    "row 0: 4294967296 is no number of a vertex");
+  CHECK_THROWS_WITH(three(Matrix<int, true>{{0, 1}, 1, 2}), "row 0: expected 3 numbers");
+  CHECK(three(std::vector<int>()).empty());
+}
+
+}  // namespace plexway::testing::rows_of_test
