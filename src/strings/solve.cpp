@@ -160,14 +160,29 @@ Point Solver::end_of_leg(const Attempt& a, std::size_t corner, std::size_t other
   return place.beside(t, space_->aside());
 }
 
+// Where a leg leads from a bend. Where rows meet in a vertex and the string bends there at both, it
+// has no length: along the other row.
+Point Solver::toward(const Attempt& a, std::size_t corner, std::size_t other, Index to) const {
+  const Point& at = a.string.corner(corner);
+  if (other > 0 && other <= a.places.size()) {
+    const Place& row = *a.string.places[other - 1];
+    const Point leg = a.string.corner(other) - at;
+    const double t = a.string.at[other - 1];
+    if (row.low < row.high && dot(leg, leg) < still * still) {
+      if (t < row.low + still) return row.along;
+      if (t > row.high - still) return -1. * row.along;
+    }
+  }
+  return end_of_leg(a, other, corner, to) - at;
+}
+
 bool Solver::drop_lifted(Attempt& a, Index to) {
   for (std::size_t i = a.places.size(); i-- > a.string.held;) {
     const Place& place = *a.string.places[i];
     if (place.holds()) continue;
-    const Point& at = a.string.points[i];
     const Leg &in = a.legs[i], &out = a.legs[i + 1];
-    const double from = place.angle_of(end_of_leg(a, i, i + 1, to) - at, in.from - in.to),
-                 on = place.angle_of(end_of_leg(a, i + 2, i + 1, to) - at, out.to - out.from);
+    const double from = place.angle_of(toward(a, i + 1, i, to), in.from - in.to),
+                 on = place.angle_of(toward(a, i + 1, i + 2, to), out.to - out.from);
     if (place.presses(from, on)) continue;
     drop(a, i, end_of_leg(a, i + 1, i, to));
     return true;

@@ -118,6 +118,7 @@ class Solver {
   void insert(Attempt& attempt, std::size_t n, Index place, const Point& at, const Point& beside);
   static void drop(Attempt& attempt, std::size_t n, const Point& beside);
   Point end_of_leg(const Attempt& attempt, std::size_t corner, std::size_t other, Index to) const;
+  Point toward(const Attempt& attempt, std::size_t corner, std::size_t other, Index to) const;
   void accept(const Attempt& attempt, Index to);
   void take(Index vertex, const Label& label);
   const Place* place(Index number);
