@@ -9,6 +9,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double still = 1e-9;  // an end that moved less did not move
+constexpr double rounding = 1e-9;
 
 }  // namespace
 
@@ -95,13 +96,13 @@ void Solver::offer(Index from, const Label& label, Index to) {
   // The length of a chain is convex in where it ends.
   const Point way = point(to) - point(from);
   if (label.distance + dot(label.last, way) >= at.limit(behind_, label.last)) return;
+  direct_ = (label.distance + norm(way)) * (1 + rounding);
   const Outcome outcome = attempt(from, label, to);
   // Where it was blocked it may come past on another side from another vertex.
   if (outcome != Outcome::stuck && !attempt_.touched) at.remember(label.chain);
-  constexpr double rounding = 1e-9;
-  const double direct = label.distance + norm(way),
-               found = sources_[attempt_.source].offset + attempt_.string.length;
-  if (outcome != Outcome::stuck && found < direct * (1 + rounding)) return;
+  if (outcome != Outcome::stuck &&
+      sources_[attempt_.source].offset + attempt_.string.length < direct_)
+    return;
   attempt_corner(from, label, to);
 }
 
@@ -272,7 +273,8 @@ Solver::Outcome Solver::settle(Attempt& a, Index to, double least) {
     // What is held may gain a little.
     const double gain = string.held > 0 ? 1e-3 : 0;
     const double length = offset + string.length - gain;
-    if (!(string.length < least) || !(length < vertices_[to].limit(behind_, last_leg(a))))
+    if (!(string.length < least) || !(length < direct_) ||
+        !(length < vertices_[to].limit(behind_, last_leg(a))))
       return Outcome::longer;
     const std::size_t leg = blocked(a, to);
     if (leg < a.legs.size()) {

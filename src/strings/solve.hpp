@@ -138,6 +138,7 @@ class Solver {
   Index from_ = none;  // the vertex that offers
   Point attached_ = {0, 0, 0}, attached_beside_ = {0, 0, 0};
   bool prepared_ = false;
+  double direct_ = 0;  // on from there along the edge: a string that is offered is no longer
   double behind_ = .5;
   Counts counts_;
 };
