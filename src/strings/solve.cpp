@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace plexway::strings {
 namespace {
@@ -315,69 +314,31 @@ Solver::Outcome Solver::past_corners(Attempt& a, Index to, Outcome outcome) {
   return outcome;
 }
 
-// The places from `begin` to `end` are all at one vertex: others there instead of them. To first
-// order the string gets shorter where the angles from one leg over the rows to the other are less
-// than pi in all.
+// The places from `begin` to `end` are all at one vertex: those of the shortest way around it
+// instead.
 bool Solver::past_corner(Attempt& a, Index to, Outcome& outcome, std::size_t begin, std::size_t end,
-                         Index corner) {
+                         Index vertex) {
   ++counts_.held;
-  constexpr double straight = std::numbers::pi - 1e-7;
-  const Point at = space_->point(corner), in = a.string.corner(begin) - at,
+  const Point &at = space_->point(vertex), in = a.string.corner(begin) - at,
               out = a.string.corner(end + 1) - at;
-  const auto angle = [](const Point& p, const Point& q) {
-    return std::atan2(norm(cross(p, q)), dot(p, q));
-  };
-  if (angle(in, out) >= straight) return false;
-  std::array<Row, 16> rows;
-  std::size_t count = 0;
-  for (const auto& [vertex, row] : space_->rows_at(corner)) {
-    const Place& p = space_->places()[row];
-    for (const bool up : {false, true})
-      if (count < rows.size() && p.end[up ? 1 : 0] != corner)
-        rows[count++] = {row, up ? p.along : -1. * p.along, 0};
-  }
-  const double reach = std::min(norm(in), norm(out));
-  const auto tries = [&](auto... chosen) {
-    std::array<Row, sizeof...(chosen)> over = {chosen...};
-    double turned = 0;
-    Point last = in;
-    for (Row& row : over) {
-      turned += angle(last, row.along);
-      row.at = turned;
-      last = row.along;
-    }
-    const double half = (turned + angle(last, out)) / 2;
-    if (2 * half >= straight) return false;
-    // Unfolded, a straight line across the sectors.
-    for (Row& row : over) row.at = reach * std::cos(half) / std::cos(row.at - half);
-    const double least = outcome == Outcome::free ? a.string.length * (1 - 1e-12) : infinity;
-    if (!settle_past(a, to, least, begin, end, over, at)) return false;
-    std::swap(a, other_);
-    outcome = Outcome::free;
-    return true;
-  };
-  if (tries()) return true;
-  const std::span<const Row> all(rows.data(), count);
-  for (const Row& first : all)
-    if (tries(first)) return true;
-  for (const Row& first : all)
-    for (const Row& second : all)
-      if (first.place != second.place && tries(first, second)) return true;
-  return false;
-}
-
-bool Solver::settle_past(const Attempt& a, Index to, double least, std::size_t begin,
-                         std::size_t end, std::span<const Row> rows, const Point& corner) {
+  if (!corner_.find(*space_, vertex, in, out)) return false;
+  const double least = outcome == Outcome::free ? a.string.length * (1 - 1e-12) : infinity,
+               reach = std::min(norm(in), norm(out)), half = corner_.turned() / 2;
   other_ = a;
   const Point beside = end_of_leg(a, begin + 1, begin, to);
   for (std::size_t n = end; n-- > begin;) drop(other_, n, beside);
-  for (std::size_t n = 0; n < rows.size(); ++n) {
-    const Place& p = *place(rows[n].place);
-    const Point at = corner + rows[n].at * rows[n].along;
-    insert(other_, begin + n, rows[n].place, at,
-           p.holds() ? at : p.beside(dot(at - p.origin, p.along), space_->aside()));
+  for (std::size_t n = 0; n < corner_.rows().size(); ++n) {
+    const Corner::Row& row = corner_.rows()[n];
+    const Place& p = *place(row.place);
+    // Unfolded, a straight line across the sectors.
+    const Point on = at + reach * std::cos(half) / std::cos(row.turned - half) * row.along;
+    insert(other_, begin + n, row.place, on,
+           p.holds() ? on : p.beside(dot(on - p.origin, p.along), space_->aside()));
   }
-  return settle(other_, to, least) == Outcome::free;
+  if (settle(other_, to, least) != Outcome::free) return false;
+  std::swap(a, other_);
+  outcome = Outcome::free;
+  return true;
 }
 
 void Solver::accept(const Attempt& a, Index to) {
