@@ -9,6 +9,7 @@ namespace {
 
 constexpr double slack = 1e-6;  // of angles
 constexpr double straight = std::numbers::pi - 1e-7;
+constexpr double same = 1e-9;  // of two ways as long the one that passes more rows
 
 double angle_between(const Point& p, const Point& q) {
   return std::atan2(norm(cross(p, q)), dot(p, q));
@@ -65,7 +66,7 @@ bool Corner::find(const SolidSpace& space, Index vertex, const Point& in, const 
     for (std::size_t n = 1; n < nodes_.size(); ++n) {
       if (nodes_[n].done || nodes_[n].place == nodes_[now].place) continue;
       const double turned = nodes_[now].turned + angle_between(nodes_[now].along, nodes_[n].along);
-      if (turned >= std::min(straight, nodes_[n].turned)) continue;
+      if (turned >= std::min(straight, nodes_[n].turned + same)) continue;
       if (!is_open(space, nodes_[now], nodes_[n])) continue;
       nodes_[n].turned = turned;
       nodes_[n].before = now;
