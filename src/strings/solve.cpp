@@ -82,11 +82,14 @@ void Solver::prepare(Index vertex, const Label& label) {
   ++counts_.pulls;
   a.string.hold(0);
   puller_.pull(a.string);
+  // Pulled from elsewhere it is the same; else its legs are not known.
+  const bool same =
+      std::abs(source.offset + a.string.length - label.distance) < rounding * (1 + label.distance);
   a.legs.clear();
   for (std::size_t i = 0; i <= a.places.size(); ++i)
     a.legs.push_back({a.string.corner(i), a.string.corner(i + 1), true});
   for (std::size_t i = 0; i <= a.places.size(); ++i)
-    a.legs[i] = {end_of_leg(a, i, i + 1, vertex), end_of_leg(a, i + 1, i, vertex), true};
+    a.legs[i] = {end_of_leg(a, i, i + 1, vertex), end_of_leg(a, i + 1, i, vertex), same};
 }
 
 void Solver::offer(Index from, const Label& label, Index to) {
