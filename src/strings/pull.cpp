@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace plexway::strings {
 namespace {
@@ -115,6 +116,53 @@ bool Puller::step(String& string, double least) {
   return false;
 }
 
+// Bends that rows hold at the vertex where they meet, though the way beside it is shorter: none of
+// them gains by itself. Unfolded about the rows, straight across. False if nothing is changed.
+bool Puller::part(String& string) {
+  constexpr double same = 1e-9, straight = std::numbers::pi - 1e-6;
+  const auto angle = [](const Point& p, const Point& q) {
+    return std::atan2(norm(cross(p, q)), dot(p, q));
+  };
+  bool any = false;
+  for (std::size_t i = string.held, end; i < string.bends(); i = end) {
+    for (end = i + 1; end < string.bends() && lengths_[end] < same;) ++end;
+    const Point in = -1. * legs_[i], &out = legs_[end];
+    if (end == i + 1 || angle(in, out) > straight) continue;
+    move_.resize(string.bends());  // how each row leads off, then the angle up to there
+    double turned = 0;
+    Point last = in;
+    for (std::size_t n = i; n < end; ++n) {
+      const Place& p = *string.places[n];
+      const bool up = string.at[n] <= p.low + same ||
+                      (string.at[n] < p.high - same && dot(p.along, in + out) > 0);
+      const Point along = up ? p.along : -1. * p.along;
+      turned += angle(last, along);
+      gradient_[n] = up ? 1 : -1;
+      move_[n] = turned;
+      last = along;
+    }
+    turned += angle(last, out);
+    if (turned > straight) continue;
+    kept_ = string.at;
+    double reach = std::min(lengths_[i], lengths_[end]) / 2;
+    for (int tries = 0; tries < 4; ++tries, reach /= 4) {
+      for (std::size_t n = i; n < end; ++n)
+        string.at[n] = std::clamp(kept_[n] + gradient_[n] * reach * std::cos(turned / 2) /
+                                                 std::cos(move_[n] - turned / 2),
+                                  string.places[n]->low, string.places[n]->high);
+      const double length = measure(string);
+      if (length < string.length) {
+        string.length = length;
+        any = true;
+        break;
+      }
+      string.at = kept_;
+      measure(string);
+    }
+  }
+  return any;
+}
+
 void Puller::pull(String& string) {
   // Newton's error is squared by each step, and the length's is the square of that of the bends:
   // once a step makes this share of a difference, it is the last.
@@ -136,14 +184,14 @@ void Puller::pull(String& string) {
     const double slope = solve(string);
     const bool ends = -slope < last * string.length;
     if (step(string, ends ? -rounding * string.length : -1e-4 * slope)) {
-      if (ends) return;
+      if (ends && !part(string)) return;
       continue;
     }
     // Too far, or over a corner where rows of edges meet.
     const double before = string.length;
     pull_each(string);
     string.length = measure(string);
-    if (!(string.length < before * (1 - 10 * rounding))) return;
+    if (!(string.length < before * (1 - 10 * rounding)) && !part(string)) return;
   }
 }
 

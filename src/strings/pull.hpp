@@ -45,6 +45,7 @@ class Puller {
   void differentiate(const String& string);
   double solve(const String& string);
   bool step(String& string, double least);
+  bool part(String& string);
 
   std::vector<Point> legs_;      // unit vectors
   std::vector<double> lengths_;  // of legs

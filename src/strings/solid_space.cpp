@@ -31,8 +31,8 @@ void SolidSpace::join(const TetMesh<Real>& mesh) {
 
 template <class Real>
 void SolidSpace::find_inside(const TetMesh<Real>& mesh) {
-  constexpr double clear = .05;             // of a cosine
-  std::vector<std::pair<Index, Index>> at;  // vertex, face
+  constexpr double clear = .05;  // of a cosine
+  auto& at = faces_at_;
   for (Index f = 0; f < boundary_.faces.size(); ++f)
     for (const Index v : boundary_.faces[f].corner) at.push_back({v, f});
   std::sort(at.begin(), at.end());
@@ -119,7 +119,7 @@ Point SolidSpace::beside(const Place& place, double t, const Point& toward,
 std::size_t SolidSpace::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return sizeof(*this) + of(points_) + of(boundary_.faces) + of(boundary_.places) + sight_.bytes() +
-         of(begin_) + of(neighbours_) + of(slot_) + of(inside_) + of(cones_);
+         of(begin_) + of(neighbours_) + of(faces_at_) + of(slot_) + of(inside_) + of(cones_);
 }
 
 template SolidSpace::SolidSpace(const TetMesh<float>&);

@@ -42,15 +42,14 @@ class SolidSpace {
   /// The same from or to a point of an edge where tetrahedra only touch.
   [[nodiscard]] Point beside(const Place& place, double t, const Point& toward,
                              const Point& free) const;
+  [[nodiscard]] const Boundary::Face& face(Index number) const { return boundary_.faces[number]; }
   /// Rows of edges at a vertex: vertex and place.
   [[nodiscard]] std::span<const std::pair<Index, Index>> rows_at(Index vertex) const {
-    if (slot_[vertex] == none) return {};
-    const auto& rows = boundary_.rows_at;
-    const auto begin =
-        std::lower_bound(rows.begin(), rows.end(), std::pair<Index, Index>{vertex, 0});
-    auto end = begin;
-    while (end != rows.end() && end->first == vertex) ++end;
-    return {begin, end};
+    return of(boundary_.rows_at, vertex);
+  }
+  /// Faces of the boundary at a vertex: vertex and face.
+  [[nodiscard]] std::span<const std::pair<Index, Index>> faces_at(Index vertex) const {
+    return of(faces_at_, vertex);
   }
   [[nodiscard]] std::size_t bytes() const;
 
@@ -64,6 +63,14 @@ class SolidSpace {
     Point direction;
     Index begin, end;
   };
+  static std::span<const std::pair<Index, Index>> of(
+      const std::vector<std::pair<Index, Index>>& pairs, Index vertex) {
+    const auto begin =
+        std::lower_bound(pairs.begin(), pairs.end(), std::pair<Index, Index>{vertex, 0});
+    auto end = begin;
+    while (end != pairs.end() && end->first == vertex) ++end;
+    return {begin, end};
+  }
   template <class Real>
   void join(const TetMesh<Real>& mesh);
   template <class Real>
@@ -79,6 +86,7 @@ class SolidSpace {
   Boundary boundary_;
   Sight sight_;
   std::vector<Index> begin_, neighbours_;
+  std::vector<std::pair<Index, Index>> faces_at_;
   std::vector<Index> slot_;  // into inside_; none: not on the boundary
   std::vector<Inside> inside_;
   std::vector<Cone> cones_;

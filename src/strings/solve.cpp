@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace plexway::strings {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double still = 1e-9;  // an end that moved less did not move
+constexpr double rounding = 1e-9;
 
 }  // namespace
 
@@ -82,11 +82,14 @@ void Solver::prepare(Index vertex, const Label& label) {
   ++counts_.pulls;
   a.string.hold(0);
   puller_.pull(a.string);
+  // Pulled from elsewhere it is the same; else its legs are not known.
+  const bool same =
+      std::abs(source.offset + a.string.length - label.distance) < rounding * (1 + label.distance);
   a.legs.clear();
   for (std::size_t i = 0; i <= a.places.size(); ++i)
     a.legs.push_back({a.string.corner(i), a.string.corner(i + 1), true});
   for (std::size_t i = 0; i <= a.places.size(); ++i)
-    a.legs[i] = {end_of_leg(a, i, i + 1, vertex), end_of_leg(a, i + 1, i, vertex), true};
+    a.legs[i] = {end_of_leg(a, i, i + 1, vertex), end_of_leg(a, i + 1, i, vertex), same};
 }
 
 void Solver::offer(Index from, const Label& label, Index to) {
@@ -95,13 +98,13 @@ void Solver::offer(Index from, const Label& label, Index to) {
   // The length of a chain is convex in where it ends.
   const Point way = point(to) - point(from);
   if (label.distance + dot(label.last, way) >= at.limit(behind_, label.last)) return;
+  direct_ = (label.distance + norm(way)) * (1 + rounding);
   const Outcome outcome = attempt(from, label, to);
   // Where it was blocked it may come past on another side from another vertex.
   if (outcome != Outcome::stuck && !attempt_.touched) at.remember(label.chain);
-  constexpr double rounding = 1e-9;
-  const double direct = label.distance + norm(way),
-               found = sources_[attempt_.source].offset + attempt_.string.length;
-  if (outcome != Outcome::stuck && found < direct * (1 + rounding)) return;
+  if (outcome != Outcome::stuck &&
+      sources_[attempt_.source].offset + attempt_.string.length < direct_)
+    return;
   attempt_corner(from, label, to);
 }
 
@@ -160,14 +163,29 @@ Point Solver::end_of_leg(const Attempt& a, std::size_t corner, std::size_t other
   return place.beside(t, space_->aside());
 }
 
+// Where a leg leads from a bend. Where rows meet in a vertex and the string bends there at both, it
+// has no length: along the other row.
+Point Solver::toward(const Attempt& a, std::size_t corner, std::size_t other, Index to) const {
+  const Point& at = a.string.corner(corner);
+  if (other > 0 && other <= a.places.size()) {
+    const Place& row = *a.string.places[other - 1];
+    const Point leg = a.string.corner(other) - at;
+    const double t = a.string.at[other - 1];
+    if (row.low < row.high && dot(leg, leg) < still * still) {
+      if (t < row.low + still) return row.along;
+      if (t > row.high - still) return -1. * row.along;
+    }
+  }
+  return end_of_leg(a, other, corner, to) - at;
+}
+
 bool Solver::drop_lifted(Attempt& a, Index to) {
   for (std::size_t i = a.places.size(); i-- > a.string.held;) {
     const Place& place = *a.string.places[i];
     if (place.holds()) continue;
-    const Point& at = a.string.points[i];
     const Leg &in = a.legs[i], &out = a.legs[i + 1];
-    const double from = place.angle_of(end_of_leg(a, i, i + 1, to) - at, in.from - in.to),
-                 on = place.angle_of(end_of_leg(a, i + 2, i + 1, to) - at, out.to - out.from);
+    const double from = place.angle_of(toward(a, i + 1, i, to), in.from - in.to),
+                 on = place.angle_of(toward(a, i + 1, i + 2, to), out.to - out.from);
     if (place.presses(from, on)) continue;
     drop(a, i, end_of_leg(a, i + 1, i, to));
     return true;
@@ -257,7 +275,8 @@ Solver::Outcome Solver::settle(Attempt& a, Index to, double least) {
     // What is held may gain a little.
     const double gain = string.held > 0 ? 1e-3 : 0;
     const double length = offset + string.length - gain;
-    if (!(string.length < least) || !(length < vertices_[to].limit(behind_, last_leg(a))))
+    if (!(string.length < least) || !(length < direct_) ||
+        !(length < vertices_[to].limit(behind_, last_leg(a))))
       return Outcome::longer;
     const std::size_t leg = blocked(a, to);
     if (leg < a.legs.size()) {
@@ -298,69 +317,31 @@ Solver::Outcome Solver::past_corners(Attempt& a, Index to, Outcome outcome) {
   return outcome;
 }
 
-// The places from `begin` to `end` are all at one vertex: others there instead of them. To first
-// order the string gets shorter where the angles from one leg over the rows to the other are less
-// than pi in all.
+// The places from `begin` to `end` are all at one vertex: those of the shortest way around it
+// instead.
 bool Solver::past_corner(Attempt& a, Index to, Outcome& outcome, std::size_t begin, std::size_t end,
-                         Index corner) {
+                         Index vertex) {
   ++counts_.held;
-  constexpr double straight = std::numbers::pi - 1e-7;
-  const Point at = space_->point(corner), in = a.string.corner(begin) - at,
+  const Point &at = space_->point(vertex), in = a.string.corner(begin) - at,
               out = a.string.corner(end + 1) - at;
-  const auto angle = [](const Point& p, const Point& q) {
-    return std::atan2(norm(cross(p, q)), dot(p, q));
-  };
-  if (angle(in, out) >= straight) return false;
-  std::array<Row, 16> rows;
-  std::size_t count = 0;
-  for (const auto& [vertex, row] : space_->rows_at(corner)) {
-    const Place& p = space_->places()[row];
-    for (const bool up : {false, true})
-      if (count < rows.size() && p.end[up ? 1 : 0] != corner)
-        rows[count++] = {row, up ? p.along : -1. * p.along, 0};
-  }
-  const double reach = std::min(norm(in), norm(out));
-  const auto tries = [&](auto... chosen) {
-    std::array<Row, sizeof...(chosen)> over = {chosen...};
-    double turned = 0;
-    Point last = in;
-    for (Row& row : over) {
-      turned += angle(last, row.along);
-      row.at = turned;
-      last = row.along;
-    }
-    const double half = (turned + angle(last, out)) / 2;
-    if (2 * half >= straight) return false;
-    // Unfolded, a straight line across the sectors.
-    for (Row& row : over) row.at = reach * std::cos(half) / std::cos(row.at - half);
-    const double least = outcome == Outcome::free ? a.string.length * (1 - 1e-12) : infinity;
-    if (!settle_past(a, to, least, begin, end, over, at)) return false;
-    std::swap(a, other_);
-    outcome = Outcome::free;
-    return true;
-  };
-  if (tries()) return true;
-  const std::span<const Row> all(rows.data(), count);
-  for (const Row& first : all)
-    if (tries(first)) return true;
-  for (const Row& first : all)
-    for (const Row& second : all)
-      if (first.place != second.place && tries(first, second)) return true;
-  return false;
-}
-
-bool Solver::settle_past(const Attempt& a, Index to, double least, std::size_t begin,
-                         std::size_t end, std::span<const Row> rows, const Point& corner) {
+  if (!corner_.find(*space_, vertex, in, out)) return false;
+  const double least = outcome == Outcome::free ? a.string.length * (1 - 1e-12) : infinity,
+               reach = std::min(norm(in), norm(out)), half = corner_.turned() / 2;
   other_ = a;
   const Point beside = end_of_leg(a, begin + 1, begin, to);
   for (std::size_t n = end; n-- > begin;) drop(other_, n, beside);
-  for (std::size_t n = 0; n < rows.size(); ++n) {
-    const Place& p = *place(rows[n].place);
-    const Point at = corner + rows[n].at * rows[n].along;
-    insert(other_, begin + n, rows[n].place, at,
-           p.holds() ? at : p.beside(dot(at - p.origin, p.along), space_->aside()));
+  for (std::size_t n = 0; n < corner_.rows().size(); ++n) {
+    const Corner::Row& row = corner_.rows()[n];
+    const Place& p = *place(row.place);
+    // Unfolded, a straight line across the sectors.
+    const Point on = at + reach * std::cos(half) / std::cos(row.turned - half) * row.along;
+    insert(other_, begin + n, row.place, on,
+           p.holds() ? on : p.beside(dot(on - p.origin, p.along), space_->aside()));
   }
-  return settle(other_, to, least) == Outcome::free;
+  if (settle(other_, to, least) != Outcome::free) return false;
+  std::swap(a, other_);
+  outcome = Outcome::free;
+  return true;
 }
 
 void Solver::accept(const Attempt& a, Index to) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "strings/chains.hpp"
+#include "strings/corner.hpp"
 #include "strings/labels.hpp"
 #include "strings/pull.hpp"
 #include "strings/solid_space.hpp"
@@ -80,12 +81,6 @@ class Solver {
     Index source = 0;
     bool touched = false;  // something was put in
   };
-  /// A row of edges at a vertex, the way from there, and how far along it a string shall start.
-  struct Row {
-    Index place;
-    Point along;
-    double at;
-  };
   enum class Outcome { free, longer, stuck };
   struct Offer {
     double distance;
@@ -105,9 +100,7 @@ class Solver {
   Outcome settle(Attempt& attempt, Index to, double least);
   Outcome past_corners(Attempt& attempt, Index to, Outcome outcome);
   bool past_corner(Attempt& attempt, Index to, Outcome& outcome, std::size_t begin, std::size_t end,
-                   Index corner);
-  bool settle_past(const Attempt& attempt, Index to, double least, std::size_t begin,
-                   std::size_t end, std::span<const Row> rows, const Point& corner);
+                   Index vertex);
   static Point last_leg(const Attempt& a) {
     return unit(a.string.to - a.string.corner(a.places.size()));
   }
@@ -118,6 +111,7 @@ class Solver {
   void insert(Attempt& attempt, std::size_t n, Index place, const Point& at, const Point& beside);
   static void drop(Attempt& attempt, std::size_t n, const Point& beside);
   Point end_of_leg(const Attempt& attempt, std::size_t corner, std::size_t other, Index to) const;
+  Point toward(const Attempt& attempt, std::size_t corner, std::size_t other, Index to) const;
   void accept(const Attempt& attempt, Index to);
   void take(Index vertex, const Label& label);
   const Place* place(Index number);
@@ -133,10 +127,12 @@ class Solver {
   std::vector<Offer> queue_;
   std::unordered_map<Index, Place> corners_;
   Puller puller_;
+  Corner corner_;
   Attempt base_, attempt_, other_;
   Index from_ = none;  // the vertex that offers
   Point attached_ = {0, 0, 0}, attached_beside_ = {0, 0, 0};
   bool prepared_ = false;
+  double direct_ = 0;  // on from there along the edge: a string that is offered is no longer
   double behind_ = .5;
   Counts counts_;
 };
