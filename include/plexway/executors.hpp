@@ -77,9 +77,8 @@ struct OpenMP {
 /// OpenGL 4.3, or too small a buffer for the domain.
 ///
 /// A solve (solve.hpp) is as by Serial with these differences. Many labels are expanded at once, in
-/// the rounds of OpenMP: the same bits each time, and where the device rounds as the processor does
-/// those of OpenMP, up to the order of additions in the vectorised step. They differ from Serial's
-/// as those of two schedules of Serial do, 2e-4 to 1e-3 in the mean and 1e-2 at worst, and are as
+/// rounds, with the same bits each time. They differ from Serial's as those of two schedules of
+/// Serial do, 2e-4 to 1e-3 in the mean and 1e-2 at worst, and are as
 /// near to the exact ones (docs/contributing/methods/executors.md). On wireframes they are those of
 /// Serial to the bit. Numbers are single precision; UsageError for more than 2^27 sources. Progress
 /// is reported every few rounds. A bounded search costs memory and time for the whole domain. For
