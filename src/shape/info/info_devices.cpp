@@ -4,6 +4,7 @@
 #include <thread>
 
 #include <plexway/error.hpp>
+#include <plexway/executors/gl.hpp>
 
 #include "shape/info/info_report.hpp"
 #include "shape/info/solve_words.hpp"
