@@ -26,7 +26,7 @@ namespace plexway {
 
 /// Goes up when the meaning of any part changes: what was built before it is not what would be
 /// built now.
-inline constexpr std::uint32_t kept_version = 4;
+inline constexpr std::uint32_t kept_version = 5;
 
 /// Is it such a file, by its first bytes?
 bool is_kept(std::span<const std::byte> bytes);

@@ -64,7 +64,7 @@ std::string collapsed_sentence(const AnyShape& shape) {
 std::shared_ptr<const Mask> without_collapsed(const AnyShape& shape,
                                               std::shared_ptr<const Mask> mask) {
   const std::span<const Index> first = shape.merged_vertices();
-  if (mask && !first.empty()) {
+  if (mask && !first.empty() && mask->closed_vertices().size() == first.size()) {
     // Whoever closes one of the vertices that are one closes the place.
     auto whole = std::make_shared<Mask>(*mask);
     for (Index v = 0; v < first.size(); ++v)
