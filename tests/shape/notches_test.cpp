@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <plexway/any_domain.hpp>
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 #include <plexway/simplicial/kuhn_grid.hpp>
 
 #include "complexes/simplicial/simplex_notches.hpp"
@@ -45,9 +45,9 @@ SimplexShape box(bool notched, bool by_lengths) {
 }
 
 std::string notch_note(const AnyShape& shape) {
-  for (const Remark& remark : domain_remarks(AnyDomain(shape)))
-    if (remark.doubtful && remark.text.find("which no rule sees in") != remark.text.npos)
-      return remark.text.substr(0, remark.text.find(" of the boundary"));
+  for (const Warning& warning : domain_warnings(AnyDomain(shape)))
+    if (warning.doubtful && warning.text.find("which no rule sees in") != warning.text.npos)
+      return warning.text.substr(0, warning.text.find(" of the boundary"));
   return "";
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <plexway/any_domain.hpp>
-#include <plexway/shape/remarks.hpp>
+#include <plexway/shape/warnings.hpp>
 
 namespace plexway::testing::scattered_rims_test {
 
@@ -35,8 +35,8 @@ bool warned(std::vector<std::array<double, 3>> at) {
   points.positions = std::move(at);
   const AnyDomain domain(AnyShape::cloud(points));
   const auto field = domain.solve(Serial{}, PointSource::at(0));
-  for (const Remark& remark : remarks(domain, field, PointSource::at(0)))
-    if (remark.text.find("scattered as by chance") != remark.text.npos) return remark.doubtful;
+  for (const Warning& warning : warnings(domain, field, PointSource::at(0)))
+    if (warning.text.find("scattered as by chance") != warning.text.npos) return warning.doubtful;
   return false;
 }
 
