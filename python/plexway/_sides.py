@@ -83,7 +83,7 @@ def inside(surface: Surface, curves: Sequence[Tuple[Array, Array]], within: Any)
 
 
 def _smaller(surface: Surface, F: Array, free: Array, side: Array, piece: Array) -> Array:
-    """The side of each piece of the surface that has less area; by lengths alone, fewer triangles."""
+    """The side of each piece of the surface that has less area; without positions, fewer triangles."""
     size = free.astype(float)
     if surface.vertices is not None:
         a, b, c = (surface.vertices[F[:, i]] for i in range(3))
