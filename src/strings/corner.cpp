@@ -61,6 +61,14 @@ bool Corner::find(const SolidSpace& space, Index vertex, const Point& in, const 
   nodes_.push_back({none, unit(in), 0, 0, false});
   nodes_.push_back({none, unit(out), 1e300, 0, false});
   look(space, vertex);
+  return find_other(space);
+}
+
+bool Corner::find_other(const SolidSpace& space) {
+  for (std::size_t n = 1; n < nodes_.size(); ++n) {
+    nodes_[n].done = nodes_[n].left_out;
+    nodes_[n].turned = 1e300;
+  }
   for (std::size_t now = 0; now != 1;) {
     nodes_[now].done = true;
     for (std::size_t n = 1; n < nodes_.size(); ++n) {
@@ -80,8 +88,10 @@ bool Corner::find(const SolidSpace& space, Index vertex, const Point& in, const 
   }
   turned_ = nodes_[1].turned;
   rows_.clear();
-  for (std::size_t n = nodes_[1].before; n != 0; n = nodes_[n].before)
+  for (std::size_t n = nodes_[1].before; n != 0; n = nodes_[n].before) {
     rows_.push_back({nodes_[n].place, nodes_[n].along, nodes_[n].turned});
+    if (nodes_[n].before == 0) nodes_[n].left_out = true;
+  }
   std::reverse(rows_.begin(), rows_.end());
   return true;
 }
