@@ -23,6 +23,8 @@ class Corner {
   /// that comes to the vertex and goes on in these directions is shorter beside it, to first order.
   /// False if there is none.
   bool find(const SolidSpace& space, Index vertex, const Point& in, const Point& out);
+  /// Another one, that begins at another row.
+  bool find_other(const SolidSpace& space);
   [[nodiscard]] std::span<const Row> rows() const { return rows_; }
   [[nodiscard]] double turned() const { return turned_; }
 
@@ -35,7 +37,7 @@ class Corner {
     Point along;
     double turned;
     std::size_t before;
-    bool done;
+    bool done, left_out = false;
   };
   void look(const SolidSpace& space, Index vertex);
   [[nodiscard]] bool is_open(const SolidSpace& space, const Node& a, const Node& b) const;

@@ -116,51 +116,54 @@ bool Puller::step(String& string, double least) {
   return false;
 }
 
-// Bends that rows hold at the vertex where they meet, though the way beside it is shorter: none of
-// them gains by itself. Unfolded about the rows, straight across. False if nothing is changed.
-bool Puller::part(String& string) {
-  constexpr double same = 1e-9, straight = std::numbers::pi - 1e-6;
+// Rows that meet in a vertex, their neighbours fixed: unfolded about them, straight across, or
+// where that turns pi or more all bends to the vertex. None of them gets there by itself.
+void Puller::pull_fans(String& string) {
+  constexpr double straight = std::numbers::pi - 1e-6;
   const auto angle = [](const Point& p, const Point& q) {
     return std::atan2(norm(cross(p, q)), dot(p, q));
   };
-  bool any = false;
-  for (std::size_t i = string.held, end; i < string.bends(); i = end) {
-    for (end = i + 1; end < string.bends() && lengths_[end] < same;) ++end;
-    const Point in = -1. * legs_[i], &out = legs_[end];
-    if (end == i + 1 || angle(in, out) > straight) continue;
-    move_.resize(string.bends());  // how each row leads off, then the angle up to there
-    double turned = 0;
-    Point last = in;
+  const auto has = [&](std::size_t i, Index v) {
+    const Place& p = *string.places[i];
+    return p.end[0] == v || p.end[1] == v;
+  };
+  for (std::size_t i = string.held, end; i + 1 < string.bends(); i = end - 1) {
+    end = i + 2;
+    const Place& first = *string.places[i];
+    const bool low = has(i + 1, first.end[0]);
+    const Index v = first.end[low ? 0 : 1];
+    if (v == none || string.places[i + 1] == &first || (!low && !has(i + 1, v))) continue;
+    while (end < string.bends() && has(end, v)) ++end;
+    const Point at = first.at(low ? first.low : first.high);
+    const auto along = [&](std::size_t n) {
+      const Place& p = *string.places[n];
+      return p.end[0] == v ? p.along : -1. * p.along;
+    };
+    const Point in = string.corner(i) - at, out = string.corner(end + 1) - at;
+    double turned = angle(in, along(i));
+    move_[i] = turned;
+    for (std::size_t n = i + 1; n < end; ++n) move_[n] = turned += angle(along(n - 1), along(n));
+    turned += angle(along(end - 1), out);
+    const double before = norm(in), behind = norm(out);
     for (std::size_t n = i; n < end; ++n) {
       const Place& p = *string.places[n];
-      const bool up = string.at[n] <= p.low + same ||
-                      (string.at[n] < p.high - same && dot(p.along, in + out) > 0);
-      const Point along = up ? p.along : -1. * p.along;
-      turned += angle(last, along);
-      gradient_[n] = up ? 1 : -1;
-      move_[n] = turned;
-      last = along;
-    }
-    turned += angle(last, out);
-    if (turned > straight) continue;
-    kept_ = string.at;
-    double reach = std::min(lengths_[i], lengths_[end]) / 2;
-    for (int tries = 0; tries < 4; ++tries, reach /= 4) {
-      for (std::size_t n = i; n < end; ++n)
-        string.at[n] = std::clamp(kept_[n] + gradient_[n] * reach * std::cos(turned / 2) /
-                                                 std::cos(move_[n] - turned / 2),
-                                  string.places[n]->low, string.places[n]->high);
-      const double length = measure(string);
-      if (length < string.length) {
-        string.length = length;
-        any = true;
-        break;
-      }
-      string.at = kept_;
-      measure(string);
+      const double reach =
+          turned < straight
+              ? before * behind * std::sin(turned) /
+                    (before * std::sin(move_[n]) + behind * std::sin(turned - move_[n]))
+              : 0;
+      string.at[n] =
+          p.end[0] == v ? std::min(p.low + reach, p.high) : std::max(p.high - reach, p.low);
+      string.points[n] = p.at(string.at[n]);
     }
   }
-  return any;
+}
+
+// Are bends so near to each other that Newton's method does not see what is beyond?
+bool Puller::is_kinked(const String& string) const {
+  for (std::size_t i = string.held + 1; i < string.bends(); ++i)
+    if (lengths_[i] < 1e-5) return true;
+  return false;
 }
 
 void Puller::pull(String& string) {
@@ -184,14 +187,20 @@ void Puller::pull(String& string) {
     const double slope = solve(string);
     const bool ends = -slope < last * string.length;
     if (step(string, ends ? -rounding * string.length : -1e-4 * slope)) {
-      if (ends && !part(string)) return;
-      continue;
+      if (!ends) continue;
+      if (!is_kinked(string)) return;
     }
     // Too far, or over a corner where rows of edges meet.
     const double before = string.length;
+    kept_ = string.at;
+    pull_fans(string);
+    string.length = measure(string);
+    if (string.length < before * (1 - 10 * rounding)) continue;
+    string.at = kept_;
+    measure(string);
     pull_each(string);
     string.length = measure(string);
-    if (!(string.length < before * (1 - 10 * rounding)) && !part(string)) return;
+    if (!(string.length < before * (1 - 10 * rounding))) return;
   }
 }
 

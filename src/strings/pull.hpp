@@ -45,7 +45,8 @@ class Puller {
   void differentiate(const String& string);
   double solve(const String& string);
   bool step(String& string, double least);
-  bool part(String& string);
+  void pull_fans(String& string);
+  [[nodiscard]] bool is_kinked(const String& string) const;
 
   std::vector<Point> legs_;      // unit vectors
   std::vector<double> lengths_;  // of legs

@@ -326,22 +326,27 @@ bool Solver::past_corner(Attempt& a, Index to, Outcome& outcome, std::size_t beg
               out = a.string.corner(end + 1) - at;
   if (!corner_.find(*space_, vertex, in, out)) return false;
   const double least = outcome == Outcome::free ? a.string.length * (1 - 1e-12) : infinity,
-               reach = std::min(norm(in), norm(out)), half = corner_.turned() / 2;
-  other_ = a;
+               reach = std::min(norm(in), norm(out));
   const Point beside = end_of_leg(a, begin + 1, begin, to);
-  for (std::size_t n = end; n-- > begin;) drop(other_, n, beside);
-  for (std::size_t n = 0; n < corner_.rows().size(); ++n) {
-    const Corner::Row& row = corner_.rows()[n];
-    const Place& p = *place(row.place);
-    // Unfolded, a straight line across the sectors.
-    const Point on = at + reach * std::cos(half) / std::cos(row.turned - half) * row.along;
-    insert(other_, begin + n, row.place, on,
-           p.holds() ? on : p.beside(dot(on - p.origin, p.along), space_->aside()));
-  }
-  if (settle(other_, to, least) != Outcome::free) return false;
-  std::swap(a, other_);
-  outcome = Outcome::free;
-  return true;
+  do {
+    const double half = corner_.turned() / 2;
+    other_ = a;
+    for (std::size_t n = end; n-- > begin;) drop(other_, n, beside);
+    for (std::size_t n = 0; n < corner_.rows().size(); ++n) {
+      const Corner::Row& row = corner_.rows()[n];
+      const Place& p = *place(row.place);
+      // Unfolded, a straight line across the sectors.
+      const Point on = at + reach * std::cos(half) / std::cos(row.turned - half) * row.along;
+      insert(other_, begin + n, row.place, on,
+             p.holds() ? on : p.beside(dot(on - p.origin, p.along), space_->aside()));
+    }
+    if (settle(other_, to, least) == Outcome::free) {
+      std::swap(a, other_);
+      outcome = Outcome::free;
+      return true;
+    }
+  } while (!corner_.rows().empty() && corner_.find_other(*space_));
+  return false;
 }
 
 void Solver::accept(const Attempt& a, Index to) {
