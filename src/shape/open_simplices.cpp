@@ -55,10 +55,11 @@ PointSource OpenSimplices::outside(const PointSource& point) const {
 }
 
 std::vector<Index> OpenSimplices::columns(std::span<const Index> columns) const {
-  if (!first_.empty() && columns.empty()) return first_;
+  if (first_.empty()) return {columns.begin(), columns.end()};
+  if (columns.empty()) return first_;
   std::vector<Index> there;
   there.reserve(columns.size());
-  for (const Index v : columns) there.push_back(first_.empty() ? v : first_[v]);
+  for (const Index v : columns) there.push_back(first_[v]);
   return there;
 }
 

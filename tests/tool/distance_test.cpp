@@ -103,6 +103,7 @@ TEST_CASE("the JSON of distance has its keys, in order") {
                                          "split_polygons",
                                          "split_cells",
                                          "dropped_simplices",
+                                         "merged_vertices",
                                          "passed_over",
                                          "notes"});
   CHECK(json["input"] == sample("knot.ply"));
