@@ -5,8 +5,8 @@
 
 /// @file
 /// Why a combination is not supported, and what domains themselves are checked for.
-// The lowest part of the one table of what goes with what; support.hpp and shape/support.hpp are the
-// others.
+// The lowest part of the one table of what goes with what; support.hpp and shape/support.hpp are
+// the others.
 namespace plexway {
 
 /// Why not, each in one sentence that says what to do instead. `X(name, sentence)`.
