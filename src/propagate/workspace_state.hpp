@@ -22,6 +22,7 @@
 
 namespace plexway {
 
+class MixedStrings;
 class SolidStrings;
 
 /// All that a propagation changes, in the open.
@@ -43,6 +44,7 @@ struct WorkspaceState {
   std::vector<Real> vertex;                       ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;               ///< its labels
   std::shared_ptr<SolidStrings> strings;          ///< in solids: strings/solid_strings.hpp
+  std::shared_ptr<MixedStrings> media;            ///< in mixed domains: strings/mixed_strings.hpp
   std::vector<Index> corners;                     ///< around one vertex
   std::unique_ptr<LoweringRooms<Real>> lowering;  ///< read_out_edges
   ///@{

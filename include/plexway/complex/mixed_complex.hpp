@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include <plexway/complex/detail/on_demand.hpp>
 #include <plexway/complex/ids.hpp>
 #include <plexway/complex/tet_mesh.hpp>
 #include <plexway/complex/triangle_mesh.hpp>
@@ -113,6 +114,9 @@ class MixedComplex {
   /// asked for, after the last change; may be asked for by several threads.
   [[nodiscard]] std::shared_ptr<const JoinedPieces<Real>> joined() const;
 
+  /// What strings know of it (src/strings); of it as it was when that was first wanted.
+  [[nodiscard]] const OnDemand& space() const { return space_; }
+
   /// Where the vertices of a piece lie, as it was added; may be empty.
   [[nodiscard]] std::span<const std::array<double, 3>> positions(const Piece& piece) const {
     return positions_[piece.number];
@@ -176,6 +180,7 @@ class MixedComplex {
   std::vector<Request> requests_;
   mutable std::shared_ptr<const JoinedPieces<Real>> joined_;
   mutable bool is_joined_ = false;  // or found to need none
+  OnDemand space_;
 };
 
 extern template class MixedComplex<float>;
