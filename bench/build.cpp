@@ -16,10 +16,10 @@
 #include <unistd.h>
 #endif
 
-#include <plexway/complex/intrinsic_delaunay.hpp>
-#include <plexway/complex/tet_mesh.hpp>
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/io/tets.hpp>
+#include <plexway/solid/tet_mesh.hpp>
+#include <plexway/surface/intrinsic_delaunay.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 
 #include "measure.hpp"
 

@@ -11,12 +11,12 @@
 #include <sstream>
 
 #include <plexway/boost_graph/dijkstra.hpp>
-#include <plexway/complex/normals.hpp>
-#include <plexway/complex/smoothing.hpp>
 #include <plexway/flann/neighbours.hpp>
+#include <plexway/surface/normals.hpp>
+#include <plexway/surface/smoothing.hpp>
 
-#include "../data/cloud_shapes.hpp"
-#include "../data/sampled_clouds.hpp"
+#include "data/cloud_shapes.hpp"
+#include "data/sampled_clouds.hpp"
 #include "solver.hpp"
 
 namespace bench::clouds {

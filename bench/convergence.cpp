@@ -6,7 +6,7 @@
 #include <iostream>
 #include <map>
 
-#include "../data/shapes.hpp"
+#include "data/shapes.hpp"
 #include "solver.hpp"
 #ifdef PLEXWAY_HAS_TETGEN
 #include "solid_domains.hpp"

@@ -2,7 +2,7 @@
 // graph: does what a rule forgets of a corner fall with refinement? Here it is all there is, as
 // there is no curvature.
 
-#include "../data/corner_domains.hpp"
+#include "data/corner_domains.hpp"
 #include "solver.hpp"
 
 namespace bench::corners {

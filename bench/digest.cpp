@@ -23,16 +23,16 @@
 #include <string>
 #include <vector>
 
-#include <plexway/complex/intrinsic_delaunay.hpp>
-#include <plexway/complex/simplicial_complex.hpp>
-#include <plexway/complex/tet_mesh.hpp>
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
+#include <plexway/simplicial/simplicial_complex.hpp>
+#include <plexway/solid/tet_mesh.hpp>
 #include <plexway/solve.hpp>
+#include <plexway/surface/intrinsic_delaunay.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 
-#include "complex/test_meshes.hpp"
-#include "complex/test_solids.hpp"
+#include "complexes/test_meshes.hpp"
+#include "complexes/test_solids.hpp"
 #include "data/random_stacks.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "propagate/simplex_obstacles.hpp"
+#include "labels/simplex_obstacles.hpp"
 #include "solver.hpp"
 
 namespace bench::dimensions {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 
 namespace bench {
 

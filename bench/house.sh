@@ -33,9 +33,9 @@ row() {
 revisions="$*"
 printf '| |'; for r in $revisions; do printf ' %s |' "$(git show -s --format='%h, %as' "$r" | tail -1)"; done
 printf '\n|---|'; for r in $revisions; do printf -- '---:|'; done; printf '\n'
-library='include src/kernel src/complex src/metric src/propagate src/executors src/apps src/io src/file
-  src/render src/any src/mpi shaders complexes'
-for folder in $library src/cli src/cli_mpi python/src web/module tests bench examples; do
+library='include src/kernel complexes src/metric src/labels src/executors src/paths src/io src/file
+  src/render src/shape src/mpi shaders complexes'
+for folder in $library src/tool src/tool_mpi python/src web/module tests bench examples; do
   row "\`$folder\`" lines "$folder"
 done
 row 'the library, `include` to `complexes`' lines $library

@@ -9,7 +9,7 @@
 
 #include <plexway/io/triangles.hpp>
 
-#include "../data/shapes.hpp"
+#include "data/shapes.hpp"
 
 #ifdef __GLIBC__
 #include <malloc.h>

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include <plexway/complex/intrinsic_delaunay.hpp>
 #include <plexway/metric/edge_lengths.hpp>
+#include <plexway/surface/intrinsic_delaunay.hpp>
 
-#include "../data/two_speeds.hpp"
+#include "data/two_speeds.hpp"
 #include "solver.hpp"
 
 namespace bench::metrics {

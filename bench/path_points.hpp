@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include <plexway/apps/path_field.hpp>
+#include <plexway/paths/path_field.hpp>
 #include <plexway/source/source.hpp>
 
-#include "../data/shapes.hpp"
+#include "data/shapes.hpp"
 
 /// A path on a surface as a source: all of it, or points of it.
 namespace bench {

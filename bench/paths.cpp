@@ -5,10 +5,10 @@
 #include <random>
 #include <set>
 
-#include <plexway/apps/bounded_search.hpp>
-#include <plexway/apps/path_field.hpp>
-#include <plexway/apps/path_search.hpp>
 #include <plexway/error.hpp>
+#include <plexway/paths/bounded_search.hpp>
+#include <plexway/paths/path_field.hpp>
+#include <plexway/paths/path_search.hpp>
 
 #include "scenes.hpp"
 #include "solver.hpp"

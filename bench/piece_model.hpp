@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "complex/deal.hpp"
-#include "executors/piece_post.hpp"
-#include "propagate/piece_memory.hpp"
+#include "complexes/partition/deal.hpp"
+#include "executors/threads/piece_post.hpp"
+#include "labels/piece_memory.hpp"
 
 namespace bench {
 

@@ -13,12 +13,12 @@
 #include <algorithm>
 #include <atomic>
 
-#include "complex/test_solids.hpp"
-#include "executors/piece_size.hpp"
+#include "complexes/test_solids.hpp"
 #include "executors/thread_ranks.hpp"
+#include "executors/threads/piece_size.hpp"
+#include "labels/pieces/triangle_patches.hpp"
+#include "labels/workspace_state.hpp"
 #include "piece_model.hpp"
-#include "propagate/pieces/triangle_patches.hpp"
-#include "propagate/workspace_state.hpp"
 #include "solver.hpp"
 
 namespace bench::piece_ranks {

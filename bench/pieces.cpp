@@ -5,8 +5,8 @@
 // dealt to the threads longest first, a run costs its expansions and some, a superstep what a
 // barrier does.
 
+#include "labels/workspace_state.hpp"
 #include "piece_model.hpp"
-#include "propagate/workspace_state.hpp"
 #include "scenes.hpp"
 #include "solver.hpp"
 

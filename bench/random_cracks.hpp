@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/apps/path_field.hpp>
-#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/paths/path_field.hpp>
+#include <plexway/solid/tet_mesh.hpp>
 
 #include "data/crack_plans.hpp"
 #include "plan_errors.hpp"

@@ -6,8 +6,8 @@
 // stacks of slabs, against Snell's law and head waves; two with rectangles or slits cut out of
 // both, against a refined graph.
 
-#include <plexway/complex/kuhn_grid.hpp>
-#include <plexway/complex/simplicial_complex.hpp>
+#include <plexway/simplicial/kuhn_grid.hpp>
+#include <plexway/simplicial/simplicial_complex.hpp>
 
 #include "data/random_stacks.hpp"
 #include "fuzz/fuzz_pierced.hpp"

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "../data/shapes.hpp"
+#include "data/shapes.hpp"
 #include "solver.hpp"
 
 namespace bench::refinement {

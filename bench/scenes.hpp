@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "../data/shapes.hpp"
+#include "data/shapes.hpp"
 #include "measure.hpp"
 
 /// What several benchmarks are run on.

@@ -9,8 +9,8 @@
 #include <plexway/solve.hpp>
 #include <plexway/tetgen/tetrahedralize.hpp>
 
-#include "../data/convex_obstacles.hpp"
-#include "../data/obstacles.hpp"
+#include "data/convex_obstacles.hpp"
+#include "data/obstacles.hpp"
 #include "errors.hpp"
 
 namespace bench {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/solve.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 
 #include "measure.hpp"
 

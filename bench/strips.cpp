@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "../data/long_strips.hpp"
+#include "data/long_strips.hpp"
 #include "solver.hpp"
 
 namespace bench::strips {

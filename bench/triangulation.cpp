@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <plexway/complex/intrinsic_delaunay.hpp>
+#include <plexway/surface/intrinsic_delaunay.hpp>
 
 #include "scenes.hpp"
 #include "solver.hpp"

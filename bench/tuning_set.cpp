@@ -5,7 +5,7 @@
 
 #include <plexway/io/triangles.hpp>
 
-#include "../data/tuning_shapes.hpp"
+#include "data/tuning_shapes.hpp"
 #include "measure.hpp"
 
 namespace bench::tuning_set {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include <plexway/complex/intrinsic_delaunay.hpp>
+#include <plexway/surface/intrinsic_delaunay.hpp>
 
 #include "solver.hpp"
 

@@ -177,7 +177,7 @@ function(plexway_add_any)
   if(UNIX)
     plexway_add_module(pcl)
     plexway_add_module(openvdb)
-    plexway_add_module(hdf5 FILE src/any/hdf5_functions.cpp)
+    plexway_add_module(hdf5 FILE src/shape/modules/hdf5_functions.cpp)
   endif()
 endfunction()
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 
 namespace samples {
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 
 namespace samples {
 

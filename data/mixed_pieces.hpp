@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 
 #include "speed_times.hpp"
 

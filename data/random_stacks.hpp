@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include <plexway/complex/mixed_complex.hpp>
-#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/mixed/mixed_complex.hpp>
+#include <plexway/solid/tet_mesh.hpp>
 
 #include "mixed_pieces.hpp"
 

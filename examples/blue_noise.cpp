@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include <plexway/apps/poisson_disk.hpp>
+#include <plexway/sampling/poisson_disk.hpp>
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include <plexway/complex/kuhn_grid.hpp>
+#include <plexway/simplicial/kuhn_grid.hpp>
 #include <plexway/solve.hpp>
 
 // A character is half a metre; rows run along y. # is wall, S where the ceiling is open.

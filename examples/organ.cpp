@@ -7,8 +7,8 @@
 #include <span>
 #include <string_view>
 
-#include <plexway/complex/kuhn_grid.hpp>
 #include <plexway/io/field.hpp>
+#include <plexway/simplicial/kuhn_grid.hpp>
 #include <plexway/solve.hpp>
 
 #ifdef PLEXWAY_HAS_RENDER

@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <vector>
 
-#include <plexway/apps/path_field.hpp>
-#include <plexway/apps/path_search.hpp>
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/paths.hpp>
+#include <plexway/paths/path_field.hpp>
+#include <plexway/paths/path_search.hpp>
 #include <plexway/solve.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 
 using namespace plexway;
 

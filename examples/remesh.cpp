@@ -6,8 +6,8 @@
 #include <fstream>
 #include <numbers>
 
-#include <plexway/apps/centroidal_voronoi.hpp>
-#include <plexway/apps/poisson_disk.hpp>
+#include <plexway/sampling/centroidal_voronoi.hpp>
+#include <plexway/sampling/poisson_disk.hpp>
 
 int main(int argc, char** argv) {
   // A torus of long thin triangles.

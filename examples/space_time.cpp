@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include <plexway/complex/kuhn_grid.hpp>
+#include <plexway/simplicial/kuhn_grid.hpp>
 #include <plexway/solve.hpp>
 
 // A wall across x from 1.75 to 2.25 m; the gate in it covers y < speed * t, over all z.

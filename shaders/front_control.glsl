@@ -4,7 +4,7 @@
 // Three queues change roles: labels being expanded, labels nearer than the limit that wait for the
 // next round, and the others. `cell` is a simplex of one field: field times simplices, plus simplex.
 //
-// A round has three passes (the rounds of src/executors/rounds.hpp): contest.comp takes out what is
+// A round has three passes (the rounds of src/executors/threads/rounds.hpp): contest.comp takes out what is
 // no longer the least of its cell, settle.comp makes the least the labels of their cells, and the
 // domain's own shader makes the offers of those labels. Each pass reads what the one before wrote
 // and nobody else writes, so a round's result does not depend on who was faster. Between the first

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <plexway/propagate/options.hpp>
+#include <plexway/solve/options.hpp>
 
 namespace plexway::testing {
 

@@ -14,13 +14,13 @@
 #include <variant>
 #include <vector>
 
-#include <plexway/any/field.hpp>
-#include <plexway/any/open_simplices.hpp>
-#include <plexway/any/shape.hpp>
-#include <plexway/apps/path.hpp>
-#include <plexway/apps/read_out.hpp>
 #include <plexway/executors/gl_executor.hpp>
-#include <plexway/propagate/options.hpp>
+#include <plexway/fields/read_out.hpp>
+#include <plexway/paths/path.hpp>
+#include <plexway/shape/field.hpp>
+#include <plexway/shape/open_simplices.hpp>
+#include <plexway/shape/shape.hpp>
+#include <plexway/solve/options.hpp>
 #include <plexway/source/source_list.hpp>
 #include <plexway/support.hpp>
 
@@ -189,7 +189,7 @@ class AnyDomain {
 
   /// For the library's own use.
   struct State;
-  /// For <plexway/any/complex.hpp>.
+  /// For <plexway/shape/complex.hpp>.
   [[nodiscard]] const State& state() const { return *state_; }
 
  private:

@@ -7,9 +7,9 @@
 #include <plexway/domain/domains.hpp>
 #include <plexway/executors.hpp>
 #include <plexway/executors/fields.hpp>
-#include <plexway/propagate/distance_field.hpp>
-#include <plexway/propagate/options.hpp>
-#include <plexway/propagate/workspace.hpp>
+#include <plexway/solve/distance_field.hpp>
+#include <plexway/solve/options.hpp>
+#include <plexway/solve/workspace.hpp>
 #include <plexway/source/source_list.hpp>
 #include <plexway/support.hpp>
 

@@ -5,7 +5,7 @@
 #include <plexway/domain/concept.hpp>
 #include <plexway/domain/support.hpp>
 #include <plexway/executors.hpp>
-#include <plexway/propagate/options.hpp>
+#include <plexway/solve/options.hpp>
 
 /// @file
 /// The table of what goes together. The sentences that say why something does not, and what domains

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 
 /// NumPy arrays in and out. What is wrong with an array is told by the name of the argument that it
 /// came as: ValueError, all of it.

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/any/mask_text.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/formats.hpp>
 #include <plexway/io/labels.hpp>
+#include <plexway/shape/mask_text.hpp>
 
 #include "arrays.hpp"
 #include "domain.hpp"

@@ -8,9 +8,9 @@
 #include <type_traits>
 #include <utility>
 
-#include <plexway/any/open_simplices.hpp>
-#include <plexway/complex/point_cloud.hpp>
+#include <plexway/cloud/point_cloud.hpp>
 #include <plexway/error.hpp>
+#include <plexway/shape/open_simplices.hpp>
 
 #include "arrays.hpp"
 

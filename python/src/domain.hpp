@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/any/remarks.hpp>
 #include <plexway/any_domain.hpp>
+#include <plexway/shape/remarks.hpp>
 
 #include "watch.hpp"
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/any/pairs.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/write_pairs.hpp>
+#include <plexway/shape/pairs.hpp>
 
 #include "arrays.hpp"
 #include "domain.hpp"

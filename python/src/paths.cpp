@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <plexway/any/isolines.hpp>
 #include <plexway/error.hpp>
+#include <plexway/shape/isolines.hpp>
 
 #include "arrays.hpp"
 #include "domain.hpp"

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include <plexway/any/scene.hpp>
-#include <plexway/any/support.hpp>
 #include <plexway/error.hpp>
+#include <plexway/shape/scene.hpp>
+#include <plexway/shape/support.hpp>
 
 #include "arrays.hpp"
 #include "domain.hpp"

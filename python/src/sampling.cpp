@@ -4,11 +4,11 @@
 #include <type_traits>
 #include <vector>
 
-#include <plexway/any/complex.hpp>
-#include <plexway/apps/centroidal_voronoi.hpp>
-#include <plexway/apps/farthest_points.hpp>
-#include <plexway/apps/poisson_disk.hpp>
 #include <plexway/error.hpp>
+#include <plexway/sampling/centroidal_voronoi.hpp>
+#include <plexway/sampling/farthest_points.hpp>
+#include <plexway/sampling/poisson_disk.hpp>
+#include <plexway/shape/complex.hpp>
 
 #include "arrays.hpp"
 #include "domain.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include <plexway/error.hpp>
-#include <plexway/propagate/options.hpp>
+#include <plexway/solve/options.hpp>
 
 namespace plexway::python {
 

@@ -7,7 +7,7 @@
 
 #include <plexway/domain/concept.hpp>
 #include <plexway/error.hpp>
-#include <plexway/propagate/options.hpp>
+#include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>
 
 namespace plexway {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include <plexway/complex/point_cloud.hpp>
+#include <plexway/cloud/point_cloud.hpp>
 #include <plexway/error.hpp>
-#include <plexway/propagate/distance_field.hpp>
+#include <plexway/solve/distance_field.hpp>
 #include <plexway/source/point_source.hpp>
 
 namespace plexway {

@@ -10,9 +10,9 @@
 #include <sstream>
 #include <vector>
 
-#include <plexway/complex/tet_mesh.hpp>
 #include <plexway/error.hpp>
-#include <plexway/propagate/options.hpp>
+#include <plexway/solid/tet_mesh.hpp>
+#include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>
 
 namespace plexway {

@@ -9,11 +9,11 @@
 #include "executors/curve_sources.hpp"
 #include "executors/solve_surface.hpp"
 #include "executors/supported.hpp"
-#include "propagate/alone.hpp"
-#include "propagate/curve_pieces.hpp"
-#include "propagate/curve_seeds.hpp"
-#include "propagate/windows/curve_lights.hpp"
-#include "propagate/windows/window_solver.hpp"
+#include "labels/alone.hpp"
+#include "labels/curve_pieces.hpp"
+#include "labels/curve_seeds.hpp"
+#include "windows/curve_lights.hpp"
+#include "windows/window_solver.hpp"
 
 /// Fields from curves and triangles on a surface.
 namespace plexway::detail {

@@ -2,11 +2,11 @@
 
 #include <span>
 
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors.hpp>
-#include <plexway/propagate/distance_field.hpp>
-#include <plexway/propagate/options.hpp>
-#include <plexway/propagate/workspace.hpp>
+#include <plexway/solve/distance_field.hpp>
+#include <plexway/solve/options.hpp>
+#include <plexway/solve/workspace.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 
 #include "executors/source_parts.hpp"
 

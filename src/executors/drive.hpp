@@ -5,15 +5,15 @@
 #include <span>
 #include <type_traits>
 
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 
-#include "executors/crew.hpp"
-#include "executors/piece_crew.hpp"
-#include "executors/piece_size.hpp"
-#include "executors/unordered.hpp"
-#include "propagate/alone.hpp"
-#include "propagate/finish.hpp"
+#include "executors/threads/crew.hpp"
+#include "executors/threads/piece_crew.hpp"
+#include "executors/threads/piece_size.hpp"
+#include "executors/threads/unordered.hpp"
+#include "labels/alone.hpp"
+#include "labels/finish.hpp"
 
 /// What an executor brings to a solve: a queue for the serial parts, and a crew. All that differs
 /// between Serial and OpenMP where labels sit in simplices.

@@ -11,18 +11,18 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/complex/tet_mesh.hpp>
-#include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/propagate/distance_field.hpp>
+#include <plexway/solid/tet_mesh.hpp>
+#include <plexway/solve/distance_field.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 
 #include "executors/simplex_numbers.hpp"
-#include "propagate/front.hpp"
-#include "propagate/saddle_offers.hpp"
-#include "propagate/solid_propagation.hpp"
-#include "propagate/solid_rule.hpp"
-#include "propagate/triangle_propagation.hpp"
-#include "propagate/wavefront.hpp"
-#include "propagate/workspace_state.hpp"
+#include "labels/front.hpp"
+#include "labels/solid/solid_propagation.hpp"
+#include "labels/solid/solid_rule.hpp"
+#include "labels/surface/saddle_offers.hpp"
+#include "labels/surface/triangle_propagation.hpp"
+#include "labels/wavefront.hpp"
+#include "labels/workspace_state.hpp"
 
 namespace plexway {
 

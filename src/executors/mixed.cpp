@@ -10,15 +10,15 @@
 
 #include <plexway/error.hpp>
 
-#include "complex/joined_pieces.hpp"
+#include "complexes/mixed/joined_pieces.hpp"
 #include "executors/checks.hpp"
 #include "executors/crack_sources.hpp"
-#include "executors/crowd_watch.hpp"
 #include "executors/mixed_lines.hpp"
-#include "executors/owned_work.hpp"
 #include "executors/run.hpp"
-#include "executors/team.hpp"
-#include "propagate/mixed_propagation.hpp"
+#include "executors/threads/crowd_watch.hpp"
+#include "executors/threads/owned_work.hpp"
+#include "executors/threads/team.hpp"
+#include "labels/mixed/mixed_propagation.hpp"
 #include "strings/mixed_strings.hpp"
 
 namespace plexway {

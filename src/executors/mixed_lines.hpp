@@ -11,12 +11,12 @@
 #include <variant>
 #include <vector>
 
-#include <plexway/complex/mixed_complex.hpp>
-#include <plexway/propagate/distance_field.hpp>
+#include <plexway/mixed/mixed_complex.hpp>
+#include <plexway/solve/distance_field.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "complex/joined_solids.hpp"
-#include "propagate/straight_lines.hpp"
+#include "complexes/mixed/joined_solids.hpp"
+#include "labels/straight_lines.hpp"
 
 namespace plexway {
 

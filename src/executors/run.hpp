@@ -10,9 +10,9 @@
 #include <plexway/solve.hpp>
 
 #include "executors/same_work.hpp"
-#include "executors/share_out.hpp"
 #include "executors/source_parts.hpp"
 #include "executors/supported.hpp"
+#include "executors/threads/share_out.hpp"
 
 /// From sources of any kind to points, for every executor and domain. Who includes this has
 /// declared before, for its domains:

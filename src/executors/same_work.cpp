@@ -13,7 +13,7 @@
 
 #include <plexway/error.hpp>
 
-#include "complex/kept_parts.hpp"
+#include "complexes/common/kept_parts.hpp"
 #include "file/checksum.hpp"
 
 namespace plexway {

@@ -6,7 +6,7 @@
 
 #include <plexway/domain/domains.hpp>
 #include <plexway/executors/piece_ranks.hpp>
-#include <plexway/propagate/options.hpp>
+#include <plexway/solve/options.hpp>
 #include <plexway/source/source_list.hpp>
 
 namespace plexway {

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/complex/tet_mesh.hpp>
-#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/solid/tet_mesh.hpp>
 #include <plexway/source/point_source.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 
 namespace plexway {
 

@@ -1,9 +1,9 @@
 #include "executors/checks.hpp"
 #include "executors/drive.hpp"
-#include "executors/owned_crew.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_solid.hpp"
 #include "executors/supported.hpp"
+#include "executors/threads/owned_crew.hpp"
 #include "strings/solid_strings.hpp"
 
 namespace plexway {

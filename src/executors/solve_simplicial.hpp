@@ -11,12 +11,12 @@
 #include <plexway/error.hpp>
 
 #include "executors/checks.hpp"
-#include "propagate/changed_vertices.hpp"
-#include "propagate/finish.hpp"
-#include "propagate/simplex_propagation.hpp"
-#include "propagate/simplex_rule.hpp"
-#include "propagate/simplex_string_rule.hpp"
-#include "propagate/wavefront.hpp"
+#include "labels/changed_vertices.hpp"
+#include "labels/finish.hpp"
+#include "labels/simplicial/simplex_propagation.hpp"
+#include "labels/simplicial/simplex_rule.hpp"
+#include "labels/simplicial/simplex_string_rule.hpp"
+#include "labels/wavefront.hpp"
 
 /// A solve on a complex of any dimension, for any crew.
 namespace plexway::simplicial {

@@ -6,10 +6,10 @@
 
 #include <plexway/error.hpp>
 
-#include "propagate/finish.hpp"
-#include "propagate/plain_solid_rule.hpp"
-#include "propagate/solid_propagation.hpp"
-#include "propagate/solid_read_out.hpp"
+#include "labels/finish.hpp"
+#include "labels/solid/plain_solid_rule.hpp"
+#include "labels/solid/solid_propagation.hpp"
+#include "labels/solid/solid_read_out.hpp"
 
 /// A solve in a solid by the plain step, for any crew.
 namespace plexway::solid {

@@ -8,12 +8,12 @@
 #include <type_traits>
 #include <utility>
 
-#include "propagate/finish.hpp"
-#include "propagate/mend_surface.hpp"
-#include "propagate/plain_rule.hpp"
-#include "propagate/read_out.hpp"
-#include "propagate/saddle_rule.hpp"
-#include "propagate/triangle_propagation.hpp"
+#include "labels/finish.hpp"
+#include "labels/plain_rule.hpp"
+#include "labels/read_out.hpp"
+#include "labels/surface/mend_surface.hpp"
+#include "labels/surface/saddle_rule.hpp"
+#include "labels/surface/triangle_propagation.hpp"
 
 /// A solve on a surface, for any crew.
 namespace plexway::surface {

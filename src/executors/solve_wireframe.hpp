@@ -2,12 +2,12 @@
 
 #include <span>
 
-#include <plexway/complex/wireframe.hpp>
-#include <plexway/propagate/distance_field.hpp>
-#include <plexway/propagate/options.hpp>
+#include <plexway/solve/distance_field.hpp>
+#include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>
+#include <plexway/wireframe/wireframe.hpp>
 
-#include "propagate/workspace_state.hpp"
+#include "labels/workspace_state.hpp"
 
 namespace plexway {
 

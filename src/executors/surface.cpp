@@ -4,8 +4,8 @@
 #include "executors/run.hpp"
 #include "executors/solve_surface.hpp"
 #include "executors/supported.hpp"
-#include "executors/window_team.hpp"
-#include "propagate/windows/window_solver.hpp"
+#include "executors/threads/window_team.hpp"
+#include "windows/window_solver.hpp"
 
 namespace plexway {
 

@@ -4,9 +4,9 @@
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_wireframe.hpp"
-#include "propagate/alone.hpp"
-#include "propagate/wire_propagation.hpp"
-#include "propagate/wire_step.hpp"
+#include "labels/alone.hpp"
+#include "labels/wireframe/wire_propagation.hpp"
+#include "labels/wireframe/wire_step.hpp"
 
 namespace plexway {
 namespace {

@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "executors/checks.hpp"
-#include "executors/piece_post.hpp"
-#include "executors/piece_size.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_wireframe.hpp"
-#include "executors/supersteps.hpp"
-#include "executors/team.hpp"
-#include "executors/unordered.hpp"
-#include "propagate/pieces/wire_piece.hpp"
-#include "propagate/wire_propagation.hpp"
-#include "propagate/wire_step.hpp"
+#include "executors/threads/piece_post.hpp"
+#include "executors/threads/piece_size.hpp"
+#include "executors/threads/supersteps.hpp"
+#include "executors/threads/team.hpp"
+#include "executors/threads/unordered.hpp"
+#include "labels/pieces/wire_piece.hpp"
+#include "labels/wireframe/wire_propagation.hpp"
+#include "labels/wireframe/wire_step.hpp"
 
 namespace plexway {
 

@@ -6,8 +6,8 @@
 
 #include <plexway/error.hpp>
 
-#include "cells.hpp"
 #include "did_you_mean.hpp"
+#include "io/solid/cells.hpp"
 #include "opened_file.hpp"
 #include "quote.hpp"
 #include "readers.hpp"

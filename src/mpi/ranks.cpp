@@ -23,8 +23,8 @@
 
 #include <plexway/error.hpp>
 
-#include "apps/row_work.hpp"
 #include "file/unfinished.hpp"
+#include "pairs/row_work.hpp"
 
 namespace plexway::mpi {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "io/colour_map.hpp"
+#include "io/field/colour_map.hpp"
 
 namespace plexway::render {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "camera.hpp"
 #include "checks.hpp"
-#include "io/colour_map.hpp"
-#include "io/ticks.hpp"
+#include "io/field/colour_map.hpp"
+#include "io/field/ticks.hpp"
 #include "rounds.hpp"
 #include "skins.hpp"
 

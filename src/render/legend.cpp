@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/ticks.hpp"
+#include "io/field/ticks.hpp"
 
 namespace plexway::render {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 
 /// Chains of places that strings bend at, from a source on. Each is kept once, as the chain before
 /// it and one more place, so that two strings along the same places have the same number.

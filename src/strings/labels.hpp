@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 
 #include "strings/place.hpp"
 

@@ -11,8 +11,8 @@
 
 #include <plexway/error.hpp>
 
-#include "complex/joined_pieces.hpp"
-#include "complex/joined_solids.hpp"
+#include "complexes/mixed/joined_pieces.hpp"
+#include "complexes/mixed/joined_solids.hpp"
 
 namespace plexway {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include <plexway/complex/mixed_complex.hpp>
+#include <plexway/mixed/mixed_complex.hpp>
 
 #include "strings/media_space.hpp"
 

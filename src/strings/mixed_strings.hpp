@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/mixed_complex.hpp>
-#include <plexway/propagate/distance_field.hpp>
-#include <plexway/propagate/options.hpp>
+#include <plexway/mixed/mixed_complex.hpp>
+#include <plexway/solve/distance_field.hpp>
+#include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "strings/media_solver.hpp"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include <plexway/complex/detail/tet_record.hpp>
+#include <plexway/solid/detail/tet_record.hpp>
 
 /// Where strings bend: straight rows of edges with more than pi of solid around them, and vertices.
 namespace plexway::strings {

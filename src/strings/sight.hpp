@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "complex/box_tree.hpp"
+#include "complexes/common/box_tree.hpp"
 #include "strings/boundary.hpp"
 
 /// What hides one point of a solid from another, and what a string touches first where it is moved

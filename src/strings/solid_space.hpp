@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/solid/tet_mesh.hpp>
 
 #include "strings/boundary.hpp"
 #include "strings/sight.hpp"

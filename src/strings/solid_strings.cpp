@@ -5,7 +5,7 @@
 
 #include <plexway/error.hpp>
 
-#include "complex/number_range.hpp"
+#include "complexes/common/number_range.hpp"
 
 namespace plexway {
 namespace {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/complex/tet_mesh.hpp>
-#include <plexway/propagate/distance_field.hpp>
-#include <plexway/propagate/options.hpp>
+#include <plexway/solid/tet_mesh.hpp>
+#include <plexway/solve/distance_field.hpp>
+#include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "strings/solve.hpp"

@@ -13,7 +13,7 @@
 #include <plexway/boost_graph/dijkstra.hpp>
 #include <plexway/error.hpp>
 
-#include "complex/test_wires.hpp"
+#include "complexes/test_wires.hpp"
 
 namespace dijkstra_test {
 

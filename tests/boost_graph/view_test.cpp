@@ -13,7 +13,7 @@
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_wires.hpp"
+#include "complexes/test_wires.hpp"
 
 namespace plexway::testing::view_test {
 

@@ -9,7 +9,7 @@
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_wires.hpp"
+#include "complexes/test_wires.hpp"
 
 namespace plexway::testing::wireframe_test {
 

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <vector>
 
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 #include <plexway/version.hpp>
 
 static_assert(PLEXWAY_VERSION == plexway::version_major * 10000 + plexway::version_minor * 100 +

@@ -6,11 +6,11 @@
 
 #include <plexway/solve.hpp>
 
-#include "complex/sampled_clouds.hpp"
-#include "complex/test_wires.hpp"
-#include "propagate/simplex_testing.hpp"
-#include "propagate/solid_solving.hpp"
-#include "propagate/solving.hpp"
+#include "complexes/sampled_clouds.hpp"
+#include "complexes/test_wires.hpp"
+#include "labels/simplex_testing.hpp"
+#include "labels/solid_solving.hpp"
+#include "labels/solving.hpp"
 
 namespace {
 std::atomic<std::size_t> allocations{0};

@@ -12,7 +12,7 @@
 #include <plexway/solve.hpp>
 
 #include "executors/scenes.hpp"
-#include "propagate/solving.hpp"
+#include "labels/solving.hpp"
 
 namespace plexway::testing {
 

@@ -6,11 +6,11 @@
 #include <numbers>
 #include <vector>
 
-#include <plexway/complex/point_cloud.hpp>
+#include <plexway/cloud/point_cloud.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/cube_distance.hpp"
-#include "complex/test_clouds.hpp"
+#include "complexes/cube_distance.hpp"
+#include "complexes/test_clouds.hpp"
 #include "with_accuracy.hpp"
 
 namespace cloud_shapes_test {

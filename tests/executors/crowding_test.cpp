@@ -6,9 +6,9 @@
 
 #include <plexway/solve.hpp>
 
-#include "executors/crowding.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
+#include "executors/threads/crowding.hpp"
 
 namespace plexway::testing::crowding_test {
 

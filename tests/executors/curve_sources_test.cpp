@@ -11,9 +11,9 @@
 
 #include <plexway/solve.hpp>
 
-#include "complex/flat_curves.hpp"
-#include "complex/jittered.hpp"
-#include "complex/test_meshes.hpp"
+#include "complexes/flat_curves.hpp"
+#include "complexes/jittered.hpp"
+#include "complexes/test_meshes.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::curve_sources_test {

@@ -5,11 +5,11 @@
 #include <fstream>
 #include <string>
 
-#include <plexway/complex/intrinsic_delaunay.hpp>
 #include <plexway/io/triangles.hpp>
 #include <plexway/solve.hpp>
+#include <plexway/surface/intrinsic_delaunay.hpp>
 
-#include "complex/triangulation_testing.hpp"
+#include "complexes/surface/triangulation_testing.hpp"
 #include "exact_data.hpp"
 #include "with_accuracy.hpp"
 

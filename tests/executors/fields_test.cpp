@@ -5,10 +5,10 @@
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_wires.hpp"
+#include "complexes/test_wires.hpp"
 #include "executors/parity.hpp"
-#include "propagate/simplex_testing.hpp"
-#include "propagate/solid_solving.hpp"
+#include "labels/simplex_testing.hpp"
+#include "labels/solid_solving.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::fields_test {

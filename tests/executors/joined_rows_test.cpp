@@ -14,7 +14,7 @@
 #include <plexway/executors/joined_rows.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/jittered.hpp"
+#include "complexes/jittered.hpp"
 #include "executors/parts_testing.hpp"
 #include "executors/piece_testing.hpp"
 #include "executors/thread_ranks.hpp"

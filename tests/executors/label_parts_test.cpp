@@ -12,7 +12,7 @@
 #include <plexway/io/triangles.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/jittered.hpp"
+#include "complexes/jittered.hpp"
 #include "exact_data.hpp"
 #include "executors/check_scene.hpp"
 #include "executors/parity.hpp"

@@ -12,7 +12,7 @@
 #include "data/mixed_pieces.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
-#include "propagate/mixed_domains.hpp"
+#include "labels/mixed_domains.hpp"
 
 namespace plexway::testing::mixed_team_test {
 

@@ -5,12 +5,12 @@
 
 #include <plexway/io/triangles.hpp>
 
-#include "complex/test_wires.hpp"
+#include "complexes/test_wires.hpp"
 #include "exact_data.hpp"
 #include "executors/parity.hpp"
-#include "propagate/simplex_testing.hpp"
-#include "propagate/solid_solving.hpp"
-#include "propagate/solving.hpp"
+#include "labels/simplex_testing.hpp"
+#include "labels/solid_solving.hpp"
+#include "labels/solving.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::openmp_parity_test {

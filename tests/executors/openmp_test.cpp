@@ -6,13 +6,13 @@
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_wires.hpp"
+#include "complexes/test_wires.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
 #include "executors/team_cases.hpp"
-#include "propagate/simplex_testing.hpp"
-#include "propagate/solid_solving.hpp"
-#include "propagate/solving.hpp"
+#include "labels/simplex_testing.hpp"
+#include "labels/solid_solving.hpp"
+#include "labels/solving.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::openmp_test {

@@ -9,7 +9,7 @@
 
 #include <plexway/solve.hpp>
 
-#include "complex/test_meshes.hpp"
+#include "complexes/test_meshes.hpp"
 
 namespace plexway::testing {
 

@@ -14,7 +14,7 @@
 #include <plexway/executors/surface_parts.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_meshes.hpp"
+#include "complexes/test_meshes.hpp"
 #include "executors/thread_ranks.hpp"
 #include "with_accuracy.hpp"
 

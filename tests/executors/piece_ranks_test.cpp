@@ -12,14 +12,14 @@
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/jittered.hpp"
-#include "complex/test_solids.hpp"
-#include "complex/test_wires.hpp"
+#include "complexes/jittered.hpp"
+#include "complexes/test_solids.hpp"
+#include "complexes/test_wires.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
 #include "executors/thread_ranks.hpp"
-#include "propagate/solid_solving.hpp"
-#include "propagate/solving.hpp"
+#include "labels/solid_solving.hpp"
+#include "labels/solving.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::piece_ranks_test {

@@ -5,7 +5,7 @@
 
 #include <plexway/executors.hpp>
 
-#include "complex/test_meshes.hpp"
+#include "complexes/test_meshes.hpp"
 
 namespace plexway::testing {
 

@@ -13,8 +13,8 @@
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
 #include "executors/team_cases.hpp"
-#include "propagate/solving.hpp"
-#include "propagate/workspace_state.hpp"
+#include "labels/solving.hpp"
+#include "labels/workspace_state.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::pieces_test {

@@ -1,19 +1,19 @@
 // What is done on a domain besides solving: every cell of that table (support.hpp, Purpose) that a
 // program reaches with a complex in its hands. Every yes is right by the closed form, every no says
-// its sentence. tests/any/purposes_test.cpp has the others, which take any domain.
+// its sentence. tests/shape/purposes_test.cpp has the others, which take any domain.
 
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include <plexway/apps/bounded_search.hpp>
-#include <plexway/apps/centroidal_voronoi.hpp>
-#include <plexway/apps/cloud_path_field.hpp>
-#include <plexway/apps/distance_matrix.hpp>
-#include <plexway/apps/farthest_points.hpp>
-#include <plexway/apps/mixed_path_field.hpp>
-#include <plexway/apps/path_search.hpp>
-#include <plexway/apps/poisson_disk.hpp>
 #include <plexway/error.hpp>
+#include <plexway/pairs/distance_matrix.hpp>
+#include <plexway/paths/bounded_search.hpp>
+#include <plexway/paths/cloud_path_field.hpp>
+#include <plexway/paths/mixed_path_field.hpp>
+#include <plexway/paths/path_search.hpp>
+#include <plexway/sampling/centroidal_voronoi.hpp>
+#include <plexway/sampling/farthest_points.hpp>
+#include <plexway/sampling/poisson_disk.hpp>
 
 #include "executors/check_scene.hpp"
 

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include <plexway/complex/kuhn_grid.hpp>
 #include <plexway/metric/edge_lengths.hpp>
+#include <plexway/simplicial/kuhn_grid.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_clouds.hpp"
-#include "complex/test_meshes.hpp"
-#include "complex/test_solids.hpp"
+#include "complexes/test_clouds.hpp"
+#include "complexes/test_meshes.hpp"
+#include "complexes/test_solids.hpp"
 #include "data/two_speeds.hpp"
 
 /// A small domain of every kind and metric where distances have a closed form, whatever the source.

@@ -9,7 +9,7 @@
 
 #include <plexway/error.hpp>
 
-#include "complex/test_clouds.hpp"
+#include "complexes/test_clouds.hpp"
 
 namespace serial_cloud_test {
 

@@ -4,7 +4,7 @@
 
 #include <plexway/error.hpp>
 
-#include "propagate/simplex_testing.hpp"
+#include "labels/simplex_testing.hpp"
 
 namespace plexway::testing::serial_simplicial_test {
 

@@ -5,7 +5,7 @@
 
 #include <plexway/error.hpp>
 
-#include "propagate/solid_solving.hpp"
+#include "labels/solid_solving.hpp"
 
 namespace plexway::testing::serial_solid_test {
 

@@ -2,7 +2,7 @@
 
 #include <plexway/error.hpp>
 
-#include "propagate/solving.hpp"
+#include "labels/solving.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::serial_test {

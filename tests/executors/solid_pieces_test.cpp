@@ -7,10 +7,10 @@
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_solids.hpp"
+#include "complexes/test_solids.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
-#include "propagate/solid_solving.hpp"
+#include "labels/solid_solving.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::solid_pieces_test {

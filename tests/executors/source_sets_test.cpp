@@ -8,10 +8,10 @@
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/cube_distance.hpp"
-#include "complex/flat_curves.hpp"
-#include "complex/test_meshes.hpp"
-#include "complex/test_solids.hpp"
+#include "complexes/cube_distance.hpp"
+#include "complexes/flat_curves.hpp"
+#include "complexes/test_meshes.hpp"
+#include "complexes/test_solids.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::source_sets_test {

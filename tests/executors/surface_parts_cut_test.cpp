@@ -11,7 +11,7 @@
 
 #include <plexway/error.hpp>
 
-#include "complex/jittered.hpp"
+#include "complexes/jittered.hpp"
 #include "executors/parts/same_rows.hpp"
 #include "executors/parts_testing.hpp"
 

@@ -14,7 +14,7 @@
 #include <plexway/io/triangles.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/jittered.hpp"
+#include "complexes/jittered.hpp"
 #include "exact_data.hpp"
 #include "executors/parity.hpp"
 #include "executors/parts_testing.hpp"

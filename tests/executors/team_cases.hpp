@@ -9,7 +9,7 @@
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_meshes.hpp"
+#include "complexes/test_meshes.hpp"
 #include "executors/parity.hpp"
 #include "with_accuracy.hpp"
 

@@ -8,9 +8,9 @@
 #include <plexway/io/triangles.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_meshes.hpp"
+#include "complexes/test_meshes.hpp"
 #include "exact_data.hpp"
-#include "propagate/solving.hpp"
+#include "labels/solving.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::usual_accuracy_test {

@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/mask.hpp>
+#include <plexway/common/mask.hpp>
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_wires.hpp"
+#include "complexes/test_wires.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
 

@@ -11,7 +11,7 @@
 #include <plexway/flann/neighbours.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_clouds.hpp"
+#include "complexes/test_clouds.hpp"
 #include "exact_data.hpp"
 
 namespace clouds_test {

@@ -6,7 +6,7 @@
 
 #include <plexway/error.hpp>
 
-#include "complex/test_clouds.hpp"
+#include "complexes/test_clouds.hpp"
 
 namespace neighbours_test {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fuzz_reader.hpp"
-#include "io/freesurfer_labels.hpp"
+#include "io/surface/freesurfer_labels.hpp"
 
 PLEXWAY_FUZZER(annotation)(const std::uint8_t* data, std::size_t size) {
   return fuzz::check_input("input", [&] {

@@ -10,8 +10,8 @@
 #include <map>
 #include <vector>
 
-#include "cli/app.hpp"
 #include "fuzz_named_file.hpp"
+#include "tool/app.hpp"
 
 namespace fuzz_arguments {
 

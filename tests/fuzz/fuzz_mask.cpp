@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include <plexway/complex/mask.hpp>
+#include <plexway/common/mask.hpp>
 
 #include "fuzz_reader.hpp"
 

@@ -1,10 +1,10 @@
 // The tool's own small files: rows of numbers (sources, metrics, spacings), true distances, tables.
 // The first byte says which.
 
-#include "any/errors/truth_file.hpp"
-#include "any/tuning/policy_file.hpp"
 #include "fuzz_reader.hpp"
 #include "io/number_rows.hpp"
+#include "shape/errors/truth_file.hpp"
+#include "shape/tuning/policy_file.hpp"
 
 PLEXWAY_FUZZER(rows)(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;

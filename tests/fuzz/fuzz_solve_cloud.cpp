@@ -1,6 +1,6 @@
 // Clouds of a few points, each with its nearest ones: coinciding, in rows, in space.
 
-#include <plexway/complex/point_cloud.hpp>
+#include <plexway/cloud/point_cloud.hpp>
 
 #include "fuzz_solve.hpp"
 

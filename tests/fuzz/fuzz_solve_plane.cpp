@@ -2,9 +2,9 @@
 // complex of triangles in the plane, and as the prism over it. The truth is the visibility graph of
 // the corners; in the prism heights and distances add up by their squares.
 
-#include <plexway/complex/simplicial_complex.hpp>
-#include <plexway/complex/tet_mesh.hpp>
-#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/simplicial/simplicial_complex.hpp>
+#include <plexway/solid/tet_mesh.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 
 #include "fuzz_plan.hpp"
 

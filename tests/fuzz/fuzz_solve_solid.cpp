@@ -1,9 +1,9 @@
 // Parts of a grid of tetrahedra, with vertices moved: notches, tunnels, parts that touch in a
 // vertex.
 
-#include <plexway/complex/kuhn_grid.hpp>
-#include <plexway/complex/simplicial_complex.hpp>
-#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/simplicial/kuhn_grid.hpp>
+#include <plexway/simplicial/simplicial_complex.hpp>
+#include <plexway/solid/tet_mesh.hpp>
 
 #include "fuzz_solve.hpp"
 

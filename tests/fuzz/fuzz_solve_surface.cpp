@@ -1,7 +1,7 @@
 // Soups of triangles: many on an edge, flat ones, vertices that coincide, parts that hang apart.
 
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/solve.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 
 #include "fuzz_solve.hpp"
 

@@ -1,6 +1,6 @@
 // Graphs: loops, doubles, edges without length. Compared with walking all edges until none helps.
 
-#include <plexway/complex/wireframe.hpp>
+#include <plexway/wireframe/wireframe.hpp>
 
 #include "fuzz_solve.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <plexway/complex/mixed_complex.hpp>
+#include <plexway/mixed/mixed_complex.hpp>
 
 #include "fuzz_plan.hpp"
 

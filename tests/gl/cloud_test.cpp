@@ -7,7 +7,7 @@
 #include <plexway/executors/gl.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_clouds.hpp"
+#include "complexes/test_clouds.hpp"
 #include "gl/device.hpp"
 
 namespace plexway::cloud_test {

@@ -8,7 +8,7 @@
 #include <plexway/executors/gl.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_meshes.hpp"
+#include "complexes/test_meshes.hpp"
 #include "executors/gl/buffer.hpp"
 #include "executors/gl/front.hpp"
 #include "executors/gl/program.hpp"

@@ -1,5 +1,5 @@
 // Flat domains with corners on a GL device: no light leaks behind them, as with one thread
-// (tests/propagate/corners_test.cpp). The exact distances are those of a visibility graph.
+// (tests/labels/corners_test.cpp). The exact distances are those of a visibility graph.
 
 #include <catch2/catch.hpp>
 
@@ -7,7 +7,7 @@
 
 #include "data/corner_domains.hpp"
 #include "gl/device.hpp"
-#include "propagate/solving.hpp"
+#include "labels/solving.hpp"
 
 namespace plexway::testing::corners_test {
 

@@ -9,8 +9,8 @@
 #include <plexway/executors/gl.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_meshes.hpp"
-#include "complex/test_solids.hpp"
+#include "complexes/test_meshes.hpp"
+#include "complexes/test_solids.hpp"
 #include "gl/device.hpp"
 
 namespace plexway::testing::identity_test {

@@ -10,9 +10,9 @@
 #include <plexway/io/triangles.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_meshes.hpp"
-#include "complex/test_solids.hpp"
-#include "complex/test_wires.hpp"
+#include "complexes/test_meshes.hpp"
+#include "complexes/test_solids.hpp"
+#include "complexes/test_wires.hpp"
 #include "exact_data.hpp"
 #include "gl/device.hpp"
 #include "gl/rounds.hpp"

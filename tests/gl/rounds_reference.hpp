@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/complex/triangle_mesh.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 
 #include "executors/gl/surface_seeds.hpp"
-#include "propagate/saddle_step.hpp"
+#include "labels/surface/saddle_step.hpp"
 
 namespace plexway::testing {
 

@@ -6,7 +6,7 @@
 #include <plexway/executors/gl.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_meshes.hpp"
+#include "complexes/test_meshes.hpp"
 #include "gl/device.hpp"
 #include "with_accuracy.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "gl/device.hpp"
 #include "gl/rounds.hpp"
-#include "propagate/solid_closed_forms.hpp"
+#include "labels/solid_closed_forms.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::solid_test {

@@ -19,7 +19,7 @@
 #include "exact_data.hpp"
 #include "gl/device.hpp"
 #include "gl/rounds_reference.hpp"
-#include "propagate/solving.hpp"
+#include "labels/solving.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::surface_test {

@@ -10,7 +10,7 @@
 #include "executors/gl/uniforms.hpp"
 #include "gl/device.hpp"
 #include "kernel/hinge.hpp"
-#include "propagate/saddle_step.hpp"
+#include "labels/surface/saddle_step.hpp"
 
 namespace text_test {
 

@@ -6,7 +6,7 @@
 #include <plexway/executors/gl.hpp>
 #include <plexway/solve.hpp>
 
-#include "complex/test_wires.hpp"
+#include "complexes/test_wires.hpp"
 #include "gl/device.hpp"
 
 namespace plexway::testing::wireframe_test {

@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
+#include <io/hdf5/include/plexway/hdf5/matrix.hpp>
 #include <plexway/error.hpp>
-#include <plexway/hdf5/matrix.hpp>
 
-#include "io/half.hpp"
+#include "io/field/half.hpp"
 #include "io/io_testing.hpp"
 
 namespace matrix_test {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include <plexway/any/support.hpp>
+#include <plexway/shape/support.hpp>
 #include <plexway/support.hpp>
 
 namespace house {

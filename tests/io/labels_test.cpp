@@ -9,7 +9,7 @@
 #include <plexway/error.hpp>
 
 #include "folder.hpp"
-#include "io/freesurfer_labels.hpp"
+#include "io/surface/freesurfer_labels.hpp"
 
 namespace plexway::labels_test {
 

@@ -14,10 +14,10 @@
 #include <plexway/error.hpp>
 #include <plexway/io/write_pairs.hpp>
 
-#include "complex/test_meshes.hpp"
+#include "complexes/test_meshes.hpp"
 #include "folder.hpp"
-#include "io/half.hpp"
-#include "io/stored_zip.hpp"
+#include "io/field/half.hpp"
+#include "io/matrix/stored_zip.hpp"
 
 namespace plexway::pairs_files_test {
 

@@ -9,7 +9,7 @@
 
 #include <plexway/io/triangles.hpp>
 
-#include "io/polygons.hpp"
+#include "io/surface/polygons.hpp"
 
 namespace polygons_test {
 

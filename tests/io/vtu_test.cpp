@@ -1,6 +1,6 @@
 #include <sstream>
 
-#include "io/vtu_data.hpp"
+#include "io/solid/vtu_data.hpp"
 #include "tets_testing.hpp"
 
 namespace vtu_test {

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include <plexway/complex/intrinsic_delaunay.hpp>
-#include <plexway/complex/tet_mesh.hpp>
-#include <plexway/complex/wireframe.hpp>
 #include <plexway/metric/edge_lengths.hpp>
+#include <plexway/solid/tet_mesh.hpp>
 #include <plexway/solve.hpp>
+#include <plexway/surface/intrinsic_delaunay.hpp>
+#include <plexway/wireframe/wireframe.hpp>
 
-#include "complex/test_meshes.hpp"
+#include "complexes/test_meshes.hpp"
 #include "data/two_speeds.hpp"
 #include "with_accuracy.hpp"
 

@@ -4,12 +4,12 @@
 #include <random>
 #include <vector>
 
-#include <plexway/apps/path_field.hpp>
-#include <plexway/apps/path_search.hpp>
-#include <plexway/complex/intrinsic_delaunay.hpp>
 #include <plexway/error.hpp>
 #include <plexway/metric/edge_lengths.hpp>
+#include <plexway/paths/path_field.hpp>
+#include <plexway/paths/path_search.hpp>
 #include <plexway/solve.hpp>
+#include <plexway/surface/intrinsic_delaunay.hpp>
 
 #include "data/two_speeds.hpp"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "complex/test_solids.hpp"
+#include "complexes/test_solids.hpp"
 #include "folder.hpp"
 #include "mpi/running.hpp"
 #include "mpi/surfaces.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/program.hpp"
+#include "tool/program.hpp"
 
 /// The tool among ranks, by mpirun. Where mpirun does not run a case says so and is through.
 namespace mpi_testing {

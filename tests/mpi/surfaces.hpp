@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "complex/jittered.hpp"
+#include "complexes/jittered.hpp"
 #include "mpi/running.hpp"
 
 namespace mpi_testing {

@@ -1,4 +1,4 @@
-#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/solid/tet_mesh.hpp>
 
 #include "volumes.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <plexway/render/image.hpp>
 
+#include "io/field/ticks.hpp"
 #include "io/io_testing.hpp"
-#include "io/ticks.hpp"
 #include "render/drawing.hpp"
 #include "render/palette.hpp"
 #include "render/stroke_font.hpp"

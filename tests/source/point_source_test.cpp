@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "propagate/solving.hpp"
+#include "labels/solving.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::point_source_test {

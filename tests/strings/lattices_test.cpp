@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/solid/tet_mesh.hpp>
 
 #include "data/cell_lattice.hpp"
 #include "strings/solve.hpp"

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include <plexway/complex/tet_mesh.hpp>
+#include <plexway/solid/tet_mesh.hpp>
 
 #include "data/crack_plans.hpp"
 #include "strings/solve.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <variant>
 
-#include <plexway/any/support.hpp>
+#include <plexway/shape/support.hpp>
 
 namespace plexway::web {
 

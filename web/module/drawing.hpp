@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/any/shape.hpp>
+#include <plexway/shape/shape.hpp>
 
 namespace plexway::web {
 

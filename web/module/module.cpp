@@ -21,10 +21,10 @@
 #include <variant>
 #include <vector>
 
-#include <plexway/any/remarks.hpp>
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 #include <plexway/executors.hpp>
+#include <plexway/shape/remarks.hpp>
 #include <plexway/version.hpp>
 
 #include "drawing.hpp"

@@ -8,7 +8,7 @@
 
 #include <plexway/error.hpp>
 
-#include "complex/point3.hpp"
+#include "complexes/common/point3.hpp"
 
 namespace plexway::web {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <plexway/any/shape.hpp>
+#include <plexway/shape/shape.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "drawing.hpp"

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 
 namespace plexway {
 

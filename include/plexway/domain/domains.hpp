@@ -1,12 +1,12 @@
 #pragma once
 
-#include <plexway/complex/mixed_complex.hpp>
-#include <plexway/complex/point_cloud.hpp>
-#include <plexway/complex/simplicial_complex.hpp>
-#include <plexway/complex/tet_mesh.hpp>
-#include <plexway/complex/triangle_mesh.hpp>
-#include <plexway/complex/wireframe.hpp>
+#include <plexway/cloud/point_cloud.hpp>
 #include <plexway/domain/concept.hpp>
+#include <plexway/mixed/mixed_complex.hpp>
+#include <plexway/simplicial/simplicial_complex.hpp>
+#include <plexway/solid/tet_mesh.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
+#include <plexway/wireframe/wireframe.hpp>
 
 /// @file
 /// The domains of the library as lists for the preprocessor.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 #include <plexway/executors/piece_ranks.hpp>
 #include <plexway/executors/surface_parts.hpp>
 

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 #include <plexway/executors.hpp>
-#include <plexway/propagate/accuracy.hpp>
-#include <plexway/propagate/distance_field.hpp>
-#include <plexway/propagate/options.hpp>
+#include <plexway/solve/accuracy.hpp>
+#include <plexway/solve/distance_field.hpp>
+#include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>
 
 // A surface that no process has as a whole.

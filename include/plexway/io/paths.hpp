@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include <plexway/apps/path.hpp>
+#include <plexway/paths/path.hpp>
 
 namespace plexway::io {
 

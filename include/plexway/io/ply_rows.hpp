@@ -7,7 +7,7 @@
 #include <memory>
 #include <span>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 #include <plexway/executors/surface_parts.hpp>
 
 namespace plexway::io {

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include <plexway/apps/all_pairs.hpp>
 #include <plexway/io/block_journal.hpp>
 #include <plexway/io/matrix_file.hpp>
 #include <plexway/io/sparse_file.hpp>
+#include <plexway/pairs/all_pairs.hpp>
 
 // Matrices of distances into files, in blocks that a journal remembers: what a run did not finish
 // the next one does.

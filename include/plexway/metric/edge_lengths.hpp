@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 #include <plexway/metric/tensor.hpp>
 
 /// How a metric becomes the edge lengths that complexes are built from. Plain data in, plain data

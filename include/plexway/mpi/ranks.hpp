@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include <plexway/apps/row_ranks.hpp>
 #include <plexway/error.hpp>
 #include <plexway/executors/piece_ranks.hpp>
+#include <plexway/pairs/row_ranks.hpp>
 
 // Ranks of MPI that share the rows of a matrix, or the pieces of one field.
 //

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 
 namespace plexway {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
-#include <plexway/propagate/options.hpp>
+#include <plexway/common/ids.hpp>
+#include <plexway/solve/options.hpp>
 
 #include "executors/gl/buffer.hpp"
 

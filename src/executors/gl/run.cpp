@@ -5,8 +5,8 @@
 
 #include <plexway/error.hpp>
 
-#include "complex/number_range.hpp"
-#include "propagate/endless.hpp"
+#include "complexes/common/number_range.hpp"
+#include "labels/endless.hpp"
 
 namespace plexway::gl {
 

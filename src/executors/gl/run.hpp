@@ -3,7 +3,7 @@
 #include <functional>
 #include <span>
 
-#include <plexway/propagate/distance_field.hpp>
+#include <plexway/solve/distance_field.hpp>
 
 #include "executors/gl/seeds.hpp"
 #include "executors/gl/uniforms.hpp"

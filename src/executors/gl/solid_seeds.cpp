@@ -5,10 +5,10 @@
 #include <iterator>
 #include <limits>
 
-#include "propagate/plain_solid_rule.hpp"
-#include "propagate/solid_propagation.hpp"
-#include "propagate/solid_read_out.hpp"
-#include "propagate/wavefront.hpp"
+#include "labels/solid/plain_solid_rule.hpp"
+#include "labels/solid/solid_propagation.hpp"
+#include "labels/solid/solid_read_out.hpp"
+#include "labels/wavefront.hpp"
 
 namespace plexway::gl {
 namespace {

@@ -4,12 +4,12 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/tet_mesh.hpp>
-#include <plexway/propagate/options.hpp>
+#include <plexway/solid/tet_mesh.hpp>
+#include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>
 
 #include "executors/gl/seeds.hpp"
-#include "propagate/workspace_state.hpp"
+#include "labels/workspace_state.hpp"
 
 namespace plexway::gl {
 

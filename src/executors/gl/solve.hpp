@@ -7,7 +7,7 @@
 #include <plexway/executors/gl.hpp>
 
 #include "executors/gl/run.hpp"
-#include "propagate/endless.hpp"
+#include "labels/endless.hpp"
 
 /// A solve on the device, for any kind of domain. Its Run says what is particular: `Domain`,
 /// `Seeds` (a SeedsOf with `add(domain, sources, field, host workspace)`), `check(domain, sources,

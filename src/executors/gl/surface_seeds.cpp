@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "propagate/saddle_rule.hpp"
-#include "propagate/triangle_propagation.hpp"
+#include "labels/surface/saddle_rule.hpp"
+#include "labels/surface/triangle_propagation.hpp"
 
 namespace plexway::gl {
 

@@ -3,11 +3,11 @@
 #include <array>
 #include <span>
 
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/source/point_source.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 
 #include "executors/gl/seeds.hpp"
-#include "propagate/workspace_state.hpp"
+#include "labels/workspace_state.hpp"
 
 namespace plexway::gl {
 

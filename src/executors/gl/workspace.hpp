@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "executors/gl/front.hpp"
-#include "propagate/workspace_state.hpp"
+#include "labels/workspace_state.hpp"
 
 namespace plexway {
 

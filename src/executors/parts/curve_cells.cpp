@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "complex/simplex_order.hpp"
-#include "executors/piece_post.hpp"
+#include "complexes/common/simplex_order.hpp"
+#include "executors/threads/piece_post.hpp"
 
 namespace plexway {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 #include <plexway/executors/piece_ranks.hpp>
 
 namespace plexway {

@@ -7,7 +7,7 @@
 
 #include <plexway/error.hpp>
 
-#include "complex/building_blocks.hpp"
+#include "complexes/common/building_blocks.hpp"
 #include "executors/parts/curve_cells.hpp"
 #include "executors/parts/part_mail.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 #include <plexway/executors/piece_ranks.hpp>
 #include <plexway/executors/surface_parts.hpp>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "executors/parts/part_pieces.hpp"
-#include "propagate/workspace_state.hpp"
+#include "labels/workspace_state.hpp"
 
 namespace plexway {
 

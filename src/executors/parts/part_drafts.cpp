@@ -6,8 +6,8 @@
 #include <numeric>
 #include <string>
 
-#include <plexway/complex/detail/triangle_record.hpp>
 #include <plexway/error.hpp>
+#include <plexway/surface/detail/triangle_record.hpp>
 
 namespace plexway {
 namespace {

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/ids.hpp>
+#include <plexway/common/ids.hpp>
 #include <plexway/executors/piece_ranks.hpp>
 
-#include "complex/deal.hpp"
+#include "complexes/partition/deal.hpp"
 #include "executors/parts/deal_faces.hpp"
 #include "executors/parts/part_mail.hpp"
 #include "executors/parts/vertex_homes.hpp"

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <type_traits>
 
-#include "complex/saddle_vertices.hpp"
-#include "complex/shape_blocks.hpp"
+#include "complexes/surface/saddle_vertices.hpp"
+#include "complexes/surface/shape_blocks.hpp"
 
 namespace plexway {
 namespace {

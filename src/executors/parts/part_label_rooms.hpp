@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "executors/parts/part_pieces.hpp"
-#include "executors/team.hpp"
-#include "propagate/pieces/triangle_patches.hpp"
+#include "executors/threads/team.hpp"
+#include "labels/pieces/triangle_patches.hpp"
 
 namespace plexway {
 

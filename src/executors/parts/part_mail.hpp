@@ -6,8 +6,8 @@
 
 #include <plexway/executors/piece_ranks.hpp>
 
-#include "complex/deal.hpp"
-#include "executors/piece_post.hpp"
+#include "complexes/partition/deal.hpp"
+#include "executors/threads/piece_post.hpp"
 
 namespace plexway {
 

@@ -9,8 +9,8 @@
 
 #include "executors/parts/part_distances.hpp"
 #include "executors/parts/part_sources.hpp"
-#include "propagate/alone.hpp"
-#include "propagate/mend_surface.hpp"
+#include "labels/alone.hpp"
+#include "labels/surface/mend_surface.hpp"
 
 namespace plexway {
 

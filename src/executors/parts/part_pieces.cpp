@@ -9,13 +9,13 @@
 
 #include <plexway/error.hpp>
 
-#include "complex/face_layout.hpp"
-#include "complex/number_range.hpp"
-#include "complex/shape_blocks.hpp"
+#include "complexes/common/number_range.hpp"
+#include "complexes/surface/face_layout.hpp"
+#include "complexes/surface/shape_blocks.hpp"
 #include "executors/parts/deal_faces.hpp"
 #include "executors/parts/part_drafts.hpp"
 #include "executors/parts/vertex_homes.hpp"
-#include "propagate/pieces/triangle_patches.hpp"
+#include "labels/pieces/triangle_patches.hpp"
 
 namespace plexway {
 namespace {

@@ -6,16 +6,16 @@
 #include <span>
 #include <vector>
 
-#include <plexway/complex/triangle_mesh.hpp>
 #include <plexway/executors/surface_parts.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 
-#include "complex/cut.hpp"
-#include "complex/deal.hpp"
+#include "complexes/partition/cut.hpp"
+#include "complexes/partition/deal.hpp"
 #include "executors/parts/part_mail.hpp"
-#include "executors/team.hpp"
-#include "propagate/windows/sheet.hpp"
-#include "propagate/windows/vertex_angles.hpp"
-#include "propagate/windows/window_patches.hpp"
+#include "executors/threads/team.hpp"
+#include "windows/sheet.hpp"
+#include "windows/vertex_angles.hpp"
+#include "windows/window_patches.hpp"
 
 namespace plexway {
 

@@ -13,15 +13,15 @@
 
 #include <plexway/executors/surface_parts.hpp>
 
-#include "complex/number_range.hpp"
+#include "complexes/common/number_range.hpp"
 #include "executors/drive.hpp"
 #include "executors/parts/part_mending.hpp"
 #include "executors/parts/part_pieces.hpp"
 #include "executors/parts/part_sources.hpp"
 #include "executors/parts/parted_labels.hpp"
 #include "executors/parts/parted_windows.hpp"
-#include "executors/window_crew.hpp"
-#include "propagate/windows/merged_windows.hpp"
+#include "executors/threads/window_crew.hpp"
+#include "windows/merged_windows.hpp"
 
 namespace plexway {
 

@@ -10,7 +10,7 @@
 
 #include <plexway/error.hpp>
 
-#include "complex/closest_point.hpp"
+#include "complexes/common/closest_point.hpp"
 
 namespace plexway {
 namespace {

@@ -8,7 +8,7 @@
 #include <plexway/source/point_source.hpp>
 
 #include "executors/parts/part_pieces.hpp"
-#include "propagate/straight_lines.hpp"
+#include "labels/straight_lines.hpp"
 
 namespace plexway {
 

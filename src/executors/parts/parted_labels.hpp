@@ -13,12 +13,12 @@
 #include "executors/parts/part_distances.hpp"
 #include "executors/parts/part_label_rooms.hpp"
 #include "executors/parts/part_sources.hpp"
-#include "executors/piece_crew.hpp"
 #include "executors/solve_surface.hpp"
-#include "executors/supersteps.hpp"
-#include "executors/unordered.hpp"
-#include "propagate/pieces/triangle_piece.hpp"
-#include "propagate/triangle_propagation.hpp"
+#include "executors/threads/piece_crew.hpp"
+#include "executors/threads/supersteps.hpp"
+#include "executors/threads/unordered.hpp"
+#include "labels/pieces/triangle_piece.hpp"
+#include "labels/surface/triangle_propagation.hpp"
 
 namespace plexway {
 

@@ -11,7 +11,7 @@
 #include "executors/parts/part_distances.hpp"
 #include "executors/parts/part_pieces.hpp"
 #include "executors/parts/part_sources.hpp"
-#include "propagate/windows/window_piece.hpp"
+#include "windows/window_piece.hpp"
 
 namespace plexway {
 

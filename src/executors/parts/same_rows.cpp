@@ -10,8 +10,8 @@
 
 #include <plexway/error.hpp>
 
-#include "executors/piece_post.hpp"
 #include "executors/same_work.hpp"
+#include "executors/threads/piece_post.hpp"
 #include "file/checksum.hpp"
 
 namespace plexway {

@@ -17,8 +17,8 @@
 #include "executors/parts/vertex_homes.hpp"
 #include "executors/same_work.hpp"
 #include "executors/supported.hpp"
-#include "propagate/windows/exact_windows.hpp"
-#include "propagate/windows/merged_windows.hpp"
+#include "windows/exact_windows.hpp"
+#include "windows/merged_windows.hpp"
 
 namespace plexway {
 namespace {

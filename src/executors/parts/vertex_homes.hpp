@@ -8,7 +8,7 @@
 #include <plexway/executors/piece_ranks.hpp>
 #include <plexway/executors/surface_parts.hpp>
 
-#include "complex/deal.hpp"
+#include "complexes/partition/deal.hpp"
 
 namespace plexway {
 

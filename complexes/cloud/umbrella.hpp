@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <plexway/cloud/neighbours.hpp>
+#include <plexway/common/ids.hpp>
+
+#include "complexes/common/point3.hpp"
+
+namespace plexway {
+
+/// The places of a cloud along a curve, numbered in that order, with their neighbours.
+struct Places {
+  std::vector<Point3> at;
+  Neighbours near;  ///< between places, without the place itself, nearest first
+};
+
+/// How the surface lies at a place.
+struct TangentFrame {
+  std::array<float, 3> normal;  ///< unit
+  float spacing = 0;            ///< 1 / sqrt(points per area), about
+  float reach = 0;              ///< what the circles of triangles are measured in: see set_reach
+};
+
+inline Point3 normal_of(const TangentFrame& frame) {
+  return {frame.normal[0], frame.normal[1], frame.normal[2]};
+}
+
+/// Which neighbours are on the same sheet.
+struct SheetRule {
+  double most_offset;   ///< from the tangent planes, in spacings
+  double least_cosine;  ///< of the angle between two normals
+  bool oriented;        ///< normals tell inside from outside
+};
+
+/// Delaunay umbrellas: the neighbours that a place shares triangles with, in order around it.
+struct Umbrellas {
+  static constexpr Index gap = Index{1} << 31;  ///< no triangle between this one and the next
+  std::vector<std::size_t> begin;
+  std::vector<Index> ring;
+  std::size_t refused = 0;  ///< pairs of neighbours that are not on the same sheet
+
+  [[nodiscard]] std::span<const Index> around(Index place) const {
+    return std::span<const Index>(ring).subspan(begin[place], begin[place + 1] - begin[place]);
+  }
+};
+
+/// Normals by the directions in which a place's neighbours spread least, those across a gap left
+/// out as far as that can be seen. `given` has one a place that goes before, or is empty.
+std::vector<TangentFrame> tangent_frames(const Places& places, std::span<const Point3> given,
+                                         const SheetRule& rule, int threads,
+                                         const std::function<bool(double)>& progress);
+
+/// The umbrella of each place: the triangles around it in the Delaunay triangulation of its
+/// neighbours on the same sheet, in its tangent plane. None has a circumcircle of more than
+/// `widest` spacings.
+Umbrellas local_umbrellas(const Places& places, std::span<const TangentFrame> frames,
+                          const SheetRule& rule, double widest, int threads,
+                          const std::function<bool(double)>& progress);
+
+/// The circles of triangles are about 0.7 spacings wide where points lie by chance, but in rows
+/// far apart half the distance of two rows, many spacings. Where the usual circle about a place
+/// is wider than a spacing, its reach is that much more; else it is the spacing.
+void set_reach(const Places& places, const Umbrellas& umbrellas, int threads,
+               std::span<TangentFrame> frames);
+
+}  // namespace plexway

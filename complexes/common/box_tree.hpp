@@ -1,0 +1,125 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include <plexway/common/ids.hpp>
+
+namespace plexway {
+
+/// An axis-parallel box of R^N.
+template <int N>
+struct Box {
+  std::array<double, N> low, high;
+
+  [[nodiscard]] static Box empty() {
+    Box box;
+    box.low.fill(std::numeric_limits<double>::infinity());
+    box.high.fill(-std::numeric_limits<double>::infinity());
+    return box;
+  }
+  void add(const std::array<double, N>& point) {
+    for (std::size_t d = 0; d < N; ++d) {
+      low[d] = std::min(low[d], point[d]);
+      high[d] = std::max(high[d], point[d]);
+    }
+  }
+  void add(const Box& box) {
+    add(box.low);
+    add(box.high);
+  }
+  void widen(double by) {
+    for (std::size_t d = 0; d < N; ++d) low[d] -= by, high[d] += by;
+  }
+  /// From another box, or a point; 0 where they meet.
+  [[nodiscard]] double distance(const Box& other) const {
+    double sum = 0;
+    for (std::size_t d = 0; d < N; ++d) {
+      const double gap = std::max({0., other.low[d] - high[d], low[d] - other.high[d]});
+      sum += gap * gap;
+    }
+    return std::sqrt(sum);
+  }
+  [[nodiscard]] double distance(const std::array<double, N>& point) const {
+    return distance(Box{point, point});
+  }
+};
+
+/// Boxes, halved along the widest axis until a few are left: finds those that a region may meet.
+/// Cost: n log n to build; a search visits nodes that the region meets.
+template <int N>
+class BoxTree {
+ public:
+  BoxTree() = default;
+  explicit BoxTree(std::span<const Box<N>> boxes) : items_(boxes.size()) {
+    std::iota(items_.begin(), items_.end(), Index{0});
+    if (!boxes.empty()) grow(boxes, 0, static_cast<Index>(boxes.size()));
+  }
+
+  [[nodiscard]] bool empty() const { return items_.empty(); }
+
+  /// visit(item) for the items of all leaves whose box, and those above, `meets`.
+  template <class Meets, class Visit>
+  void search(const Meets& meets, const Visit& visit) const {
+    for (Index at = 0; at < nodes_.size();) {
+      const Node& node = nodes_[at];
+      if (!meets(node.box)) {
+        at = node.skip;
+        continue;
+      }
+      for (Index i = node.begin; i < node.end; ++i) visit(items_[i]);
+      ++at;
+    }
+  }
+
+  [[nodiscard]] std::size_t bytes() const {
+    return nodes_.capacity() * sizeof(Node) + items_.capacity() * sizeof(Index);
+  }
+
+ private:
+  static constexpr Index leaf = 3;  // items at most
+
+  /// In depth-first order; `skip` is the first node that is not below this one. Items of leaves.
+  struct Node {
+    Box<N> box;
+    Index skip, begin, end;
+  };
+
+  void grow(std::span<const Box<N>> boxes, Index begin, Index end) {
+    const std::size_t at = nodes_.size();
+    Box<N> box = Box<N>::empty(), middles = Box<N>::empty();
+    const auto middle = [&](Index i, std::size_t d) { return boxes[i].low[d] + boxes[i].high[d]; };
+    for (Index i = begin; i < end; ++i) {
+      box.add(boxes[items_[i]]);
+      std::array<double, N> m;
+      for (std::size_t d = 0; d < N; ++d) m[d] = middle(items_[i], d);
+      middles.add(m);
+    }
+    nodes_.push_back({box, 0, begin, end - begin > leaf ? begin : end});
+    if (end - begin > leaf) {
+      std::size_t axis = 0;
+      for (std::size_t d = 1; d < N; ++d)
+        if (middles.high[d] - middles.low[d] > middles.high[axis] - middles.low[axis]) axis = d;
+      const Index half = begin + (end - begin) / 2;
+      std::nth_element(items_.begin() + begin, items_.begin() + half, items_.begin() + end,
+                       [&](Index a, Index b) {
+                         const double l = middle(a, axis), r = middle(b, axis);
+                         return l != r ? l < r : a < b;
+                       });
+      grow(boxes, begin, half);
+      grow(boxes, half, end);
+    }
+    nodes_[at].skip = static_cast<Index>(nodes_.size());
+  }
+
+  std::vector<Node> nodes_;
+  std::vector<Index> items_;
+};
+
+}  // namespace plexway

@@ -1,0 +1,173 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <plexway/common/detail/rows.hpp>
+
+#include "file/checksum.hpp"
+#include "file/mapped_file.hpp"
+#include "file/new_file.hpp"
+
+/// A file of parts one after the other, each a number or an array, as this machine has them in
+/// memory. Blocks of 64 bytes: a header (magic, byte order, version), then for each part the size
+/// of an element, their count, and the elements, in the same block if they fit and else from the
+/// next one on, and a trailer with the size of the file and the checksum of all before.
+namespace plexway {
+
+/// Goes up when the meaning of any part changes: what was built before it is not what would be
+/// built now.
+inline constexpr std::uint32_t kept_version = 4;
+
+/// Is it such a file, by its first bytes?
+bool is_kept(std::span<const std::byte> bytes);
+
+/// For tests: makes the trailer of such a file right again where other bytes were changed.
+void seal(std::span<std::byte> file);
+
+/// Numbers, and what is made of numbers without pointers.
+template <class T>
+concept KeptElement = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
+
+/// Bytes of an element that belong to no member: nothing is written of what happens to be there, so
+/// the same build gives the same file. (GCC 12's __builtin_clear_padding clears others as well.)
+template <class T>
+struct KeptGap {
+  static constexpr std::size_t begin = 0, end = 0;
+};
+
+/// Writes such a file, which appears whole or not at all (NewFile). Throws Error "cannot write
+/// FILE: reason".
+class KeptOut {
+ public:
+  static constexpr bool reads = false;
+
+  explicit KeptOut(const std::filesystem::path& file);
+  /// For the checksum alone.
+  KeptOut();
+
+  template <class... Part>
+  void operator()(const Part&... parts) {
+    (put(parts), ...);
+  }
+  /// The last part was given. For a file.
+  void commit();
+  /// Of all parts given so far.
+  [[nodiscard]] std::uint64_t checksum();
+
+ private:
+  template <KeptElement T>
+  void put(const T& number) {
+    put_elements(std::span(&number, 1));
+  }
+  template <KeptElement T>
+  void put(const std::vector<T>& array) {
+    put_elements(std::span(array));
+  }
+  template <KeptElement T, class Own>
+  void put(const Rows<T, Own>& array) {
+    put_elements(std::span<const T>(array));
+  }
+  void put(const std::string& text) { put_elements(std::span(text)); }
+
+  template <class T>
+  void put_elements(std::span<const T> elements) {
+    begin_part(sizeof(T), elements.size());
+    if constexpr (std::is_class_v<T>) {
+      constexpr std::size_t many = 128;
+      std::array<T, many> some;
+      for (; !elements.empty(); elements = elements.subspan(std::min(many, elements.size()))) {
+        const std::size_t count = std::min(many, elements.size());
+        std::memcpy(static_cast<void*>(some.data()), elements.data(), count * sizeof(T));
+        for (std::size_t n = 0; KeptGap<T>::end > 0 && n < count; ++n)
+          std::memset(reinterpret_cast<std::byte*>(&some[n]) + KeptGap<T>::begin, 0,
+                      KeptGap<T>::end - KeptGap<T>::begin);
+        write(reinterpret_cast<const std::byte*>(some.data()), count * sizeof(T));
+      }
+    } else {
+      write(reinterpret_cast<const std::byte*>(elements.data()), elements.size() * sizeof(T));
+    }
+    end_part();
+  }
+  void begin_part(std::size_t element, std::size_t count);
+  void write(const std::byte* bytes, std::size_t size);
+  void end_part();
+  void flush();
+
+  std::optional<file::NewFile> file_;
+  file::Checksum checksum_;
+  std::vector<std::byte> pending_;
+  std::uint64_t written_ = 0;
+};
+
+/// Reads one. Arrays are lent by the mapped file, which lives as long as any of them.
+class KeptIn {
+ public:
+  static constexpr bool reads = true;
+
+  /// Throws InputError "FILE: cause" for a file that is no such, foreign or damaged.
+  explicit KeptIn(const std::filesystem::path& file);
+  /// Of bytes that lie elsewhere, at a multiple of 64; `name` is for messages.
+  KeptIn(std::span<const std::byte> bytes, std::shared_ptr<const void> keeper, std::string name);
+
+  template <class... Part>
+  void operator()(Part&... parts) {
+    (take(parts), ...);
+  }
+  /// No part is left.
+  void end() { require(at_ == end_); }
+  /// What is read must be so, or the file is refused.
+  void require(bool holds) const {
+    if (!holds) refuse("is damaged");
+  }
+  [[noreturn]] void refuse(const std::string& cause) const;
+
+ private:
+  template <KeptElement T>
+  void take(T& number) {
+    const auto elements = take_elements(sizeof(T));
+    require(elements.count == 1);
+    if constexpr (std::is_same_v<T, bool>)
+      require(static_cast<unsigned char>(*elements.start) <= 1);
+    std::memcpy(&number, elements.start, sizeof(T));
+  }
+  template <KeptElement T>
+  void take(std::vector<T>& array) {
+    const auto elements = take_elements(sizeof(T));
+    array.resize(elements.count);
+    if (elements.count > 0)
+      std::memcpy(static_cast<void*>(array.data()), elements.start, elements.count * sizeof(T));
+  }
+  template <KeptElement T, class Own>
+  void take(Rows<T, Own>& array) {
+    const auto elements = take_elements(sizeof(T));
+    array = Rows<T, Own>({reinterpret_cast<const T*>(elements.start), elements.count}, keeper_);
+  }
+  void take(std::string& text) {
+    const auto elements = take_elements(1);
+    text.assign(reinterpret_cast<const char*>(elements.start), elements.count);
+  }
+
+  struct Elements {
+    const std::byte* start;
+    std::size_t count;
+  };
+  Elements take_elements(std::size_t size);
+  void check();
+
+  std::string name_;
+  std::shared_ptr<const void> keeper_;
+  std::span<const std::byte> bytes_;
+  std::size_t at_ = 0, end_ = 0;
+};
+
+}  // namespace plexway

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <plexway/surface/triangle_mesh.hpp>
+
+#include "complexes/surface/vertex_fans.hpp"
+
+namespace plexway {
+
+/// Decides at which vertices shortest paths may bend, and sets the sign bits of their sines.
+///
+/// `excess`, one number a vertex: the angle around it beyond 2 pi, or on a boundary beyond pi.
+/// `hints` has the thresholds and whether the vertices are samples; `first_use` is FaceLayout's.
+/// `vertices`: so many has the whole surface that this is a part of; 0: it is the whole. Sines must
+/// be >= 0. Cost: linear, two passes, by as many threads as `hints` say.
+template <class Real>
+void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& fans,
+                  std::span<const Index> first_use, std::vector<double> excess,
+                  const SurfaceHints& hints, std::size_t vertices = 0);
+
+}  // namespace plexway

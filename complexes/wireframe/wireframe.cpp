@@ -1,0 +1,170 @@
+#include <plexway/wireframe/wireframe.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <plexway/error.hpp>
+
+#include "complexes/common/number_range.hpp"
+#include "complexes/wireframe/vertex_order.hpp"
+
+namespace plexway {
+namespace {
+
+using Edges = std::span<const std::array<Index, 2>>;
+
+void check_edges(std::size_t vertices, Edges edges) {
+  if (vertices >= none) throw InputError("more than 4294967294 vertices");
+  if (edges.size() > none / 2)
+    throw InputError(std::to_string(edges.size()) + " edges: at most " + std::to_string(none / 2) +
+                     " fit the index");
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    for (const Index v : edges[e])
+      if (v >= vertices)
+        throw InputError("edge " + std::to_string(e) + ": vertex " + std::to_string(v) +
+                         " is out of range, there are " + std::to_string(vertices));
+}
+
+std::vector<Index> inverse(std::span<const Index> order) {
+  std::vector<Index> place(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) place[order[i]] = static_cast<Index>(i);
+  return place;
+}
+
+double mean_of(std::span<const double> lengths) {
+  const double longest = lengths.empty() ? 0 : *std::max_element(lengths.begin(), lengths.end());
+  if (!(longest > 0)) return 0;
+  double sum = 0;  // in proportion, so that it cannot overflow
+  for (const double l : lengths) sum += l / longest;
+  return longest * (sum / static_cast<double>(lengths.size()));
+}
+
+// See Wireframe::typical_edge; `mean` > 0.
+double typical_of(std::span<const double> lengths, double mean) {
+  std::vector<double> positive(lengths.begin(), lengths.end());
+  std::erase(positive, 0.0);
+  const auto middle = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 2);
+  std::nth_element(positive.begin(), middle, positive.end());
+  const double part = std::min(*middle / mean, 1.0);
+  return mean * part * (1 + part) / 2;
+}
+
+}  // namespace
+
+template <class Real>
+Wireframe<Real>::Wireframe(std::span<const std::array<double, 3>> positions,
+                           std::span<const std::array<Index, 2>> edges) {
+  check_edges(positions.size(), edges);
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    for (const double x : positions[v])
+      if (!std::isfinite(x))
+        throw InputError("vertex " + std::to_string(v) + ": a coordinate is not finite");
+  std::vector<double> lengths(edges.size());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto& a = positions[edges[e][0]];
+    const auto& b = positions[edges[e][1]];
+    lengths[e] = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+    if (!std::isfinite(lengths[e]))
+      throw InputError("edge " + std::to_string(e) + ": too long for a number");
+  }
+  vertex_to_inside_ = inverse(vertices_along_curve(positions));
+  assemble(edges, lengths);
+}
+
+template <class Real>
+Wireframe<Real>::Wireframe(std::size_t vertices, std::span<const std::array<Index, 2>> edges,
+                           std::span<const double> lengths) {
+  check_edges(vertices, edges);
+  if (lengths.size() != edges.size())
+    throw InputError(std::to_string(edges.size()) + " edges with " +
+                     std::to_string(lengths.size()) + " lengths");
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (!std::isfinite(lengths[e]) || lengths[e] < 0)
+      throw InputError("edge " + std::to_string(e) + ": its length is negative or not finite");
+  const std::size_t block = std::max<std::size_t>(4096, vertices / 64);  // what pieces are by then
+  vertex_to_inside_ = inverse(vertices_in_blocks(vertices, edges, block));
+  assemble(edges, lengths);
+}
+
+template <class Real>
+void Wireframe<Real>::assemble(std::span<const std::array<Index, 2>> edges,
+                               std::span<const double> lengths) {
+  const std::size_t n = vertex_to_inside_.size();
+  summary_.vertices = n;
+  summary_.edges = edges.size();
+  summary_.mean_edge = mean_of(lengths);
+  if (summary_.mean_edge > 0) {
+    int exponent = 0;
+    const double fraction = std::frexp(summary_.mean_edge, &exponent);
+    unit_ = std::ldexp(1.0, fraction < std::sqrt(0.5) ? exponent - 1 : exponent);
+    // At the ends of double's range: a unit that has no inverse would be no unit.
+    if (!std::isfinite(unit_) || !std::isfinite(1 / unit_)) unit_ = summary_.mean_edge;
+    typical_edge_ = typical_of(lengths, summary_.mean_edge) / unit_;
+  }
+
+  std::vector<Index>& begin = begin_.own();
+  begin.assign(n + 1, 0);
+  for (const auto& [a, b] : edges) {
+    ++begin[vertex_to_inside_[a] + 1];
+    if (a != b) ++begin[vertex_to_inside_[b] + 1];
+  }
+  for (std::size_t v = 0; v < n; ++v) {
+    summary_.unreferenced_vertices += begin[v + 1] == 0;
+    begin[v + 1] += begin[v];
+  }
+  std::vector<WireArc<Real>>& arcs = arcs_.own();
+  arcs.resize(begin[n]);
+  std::vector<Index>& arc_of_edge = arc_of_edge_.own();
+  arc_of_edge.resize(edges.size());
+  std::vector<Index> end(begin.begin(), begin.end() - 1);  // of the row as filled so far
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const Index a = vertex_to_inside_[edges[e][0]], b = vertex_to_inside_[edges[e][1]];
+    NumberRange<Real>::check_edge(e, lengths[e] / unit_);
+    const Real length = static_cast<Real>(lengths[e] / unit_);
+    summary_.zero_length_edges += lengths[e] == 0;
+    summary_.loops += a == b;
+    arc_of_edge[e] = end[a];
+    arcs[end[a]++] = {b, length};
+    if (a != b) arcs[end[b]++] = {a, length};
+  }
+  count_components();
+}
+
+template <class Real>
+void Wireframe<Real>::count_components() {
+  std::vector<Index> parent(vertex_count());
+  for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = static_cast<Index>(v);
+  const auto root = [&](Index v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  std::size_t joins = 0;
+  for (Index v = 0; v < parent.size(); ++v)
+    for (Index k = begin_[v]; k < begin_[v + 1]; ++k) {
+      if (arcs_[k].to >= v) continue;  // each edge once
+      const Index a = root(v), b = root(arcs_[k].to);
+      if (a == b) continue;
+      parent[std::max(a, b)] = std::min(a, b);
+      ++joins;
+    }
+  summary_.components = parent.size() - joins - summary_.unreferenced_vertices;
+}
+
+template <class Real>
+std::size_t Wireframe<Real>::bytes() const {
+  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return sizeof(*this) + of(begin_) + of(arcs_) + of(vertex_to_inside_) + of(arc_of_edge_);
+}
+
+template <class Real>
+typename Wireframe<Real>::Ends Wireframe<Real>::inside_edge(Index edge) const {
+  const Index arc = arc_of_edge_[edge];
+  const auto row = std::upper_bound(begin_.begin(), begin_.end(), arc) - 1;
+  return {static_cast<Index>(row - begin_.begin()), arcs_[arc].to, arcs_[arc].length};
+}
+
+template class Wireframe<float>;
+template class Wireframe<double>;
+
+}  // namespace plexway

@@ -1,0 +1,189 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include <plexway/common/detail/on_demand.hpp>
+#include <plexway/common/ids.hpp>
+#include <plexway/domain/concept.hpp>
+#include <plexway/solid/tet_mesh.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
+#include <plexway/wireframe/wireframe.hpp>
+
+namespace plexway {
+
+template <class Real>
+struct JoinedPieces;
+
+/// Which intersections of simplices of two welded pieces become hinges.
+struct WeldOptions {
+  /// Vertices of the two pieces are one if they are this close, in the domain's unit, >= 0.
+  double tolerance = 0;
+  /// The maximal intersections always are hinges: faces that both pieces have; edges that both
+  /// have and that lie in no such face, or from where a surface goes on alone; vertices in no such
+  /// edge or face. Lower ones by request:
+  bool all_edges = false;     ///< every edge that both pieces have
+  bool all_vertices = false;  ///< every welded vertex
+};
+
+/// What a mixed domain is made of.
+struct MixedSummary {
+  ///@{
+  /// Of all pieces; a welded vertex counts in each of them.
+  std::size_t pieces = 0, vertices = 0, simplices = 0;
+  ///@}
+  std::size_t welded_vertices = 0;         ///< pairs
+  std::array<std::size_t, 3> hinges = {};  ///< between pieces, by dimension
+};
+
+/// Complexes of different dimension in one domain, welded at vertices.
+///
+/// Pieces keep their own complex, so that inside each the best rule for its dimension applies.
+/// Vertices and simplices are numbered through, piece after piece: a welded vertex keeps a number
+/// in each of its pieces, with equal distances. Executors work on fewer pieces (`joined`), since a
+/// corner that exists only once pieces are welded must bend paths as any other. Built once, then
+/// read by any number of threads.
+template <class Real>
+class MixedComplex {
+ public:
+  /// The precision of lengths inside, and of fields.
+  using Number = Real;
+  /// A mixed domain.
+  static constexpr DomainKind kind = DomainKind::mixed;
+  /// The greatest that a piece may have.
+  static constexpr int dimension = 3;
+
+  /// What a piece may be.
+  using Complex = std::variant<TriangleMesh<Real>, TetMesh<Real>, Wireframe<Real>>;
+
+  /// A piece's place in the numbering of the whole.
+  struct Piece {
+    ///@{
+    /// Its own number, and the first and the count of its vertices and its simplices in the whole.
+    Index number, first_vertex, vertices, first_simplex, simplices;
+    ///@}
+    /// The number in the domain of a vertex or a simplex of this piece. Throws UsageError if there
+    /// is none such.
+    [[nodiscard]] Index vertex(Index of_piece) const;
+    /// Likewise.
+    [[nodiscard]] Index simplex(Index of_piece) const;
+  };
+
+  /// Adds a piece. `positions`, one a vertex, are needed to weld by nearness only. Throws
+  /// UsageError for positions of another count, a solid without coordinates, or more than 2^32 - 2
+  /// vertices or simplices in all.
+  Piece add(Complex complex, std::span<const std::array<double, 3>> positions = {});
+
+  /// Makes nearby vertices of two pieces one. Returns how many pairs; with none, nothing changes.
+  /// Throws UsageError for a piece that is not of this domain, twice the same, without positions,
+  /// or a tolerance that is negative or not a number. Cost: linear.
+  std::size_t weld(const Piece& a, const Piece& b, const WeldOptions& options = {});
+
+  /// The same for given pairs (vertex of a, vertex of b), in the pieces' own numbers.
+  std::size_t weld(const Piece& a, const Piece& b, std::span<const std::array<Index, 2>> pairs,
+                   const WeldOptions& options = {});
+
+  /// Of all pieces; a welded vertex counts in each of them. Fields have one distance each.
+  [[nodiscard]] std::size_t vertex_count() const { return summary_.vertices; }
+  /// Of all pieces.
+  [[nodiscard]] std::size_t simplex_count() const { return summary_.simplices; }
+  /// Intrinsic, whatever its pieces have.
+  [[nodiscard]] MetricKind metric() const { return MetricKind::intrinsic; }
+  /// What it is made of.
+  [[nodiscard]] const MixedSummary& summary() const { return summary_; }
+  /// In the order in which they were added.
+  [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }
+  /// The complex of a piece, which must be of this domain (not checked).
+  [[nodiscard]] const Complex& complex(const Piece& piece) const {
+    return complexes_[piece.number];
+  }
+  /// Bytes this domain holds.
+  [[nodiscard]] std::size_t bytes() const;
+
+  // What follows serves the floors above and uses the numbers inside the pieces.
+  /// @name For the floors above
+  ///@{
+
+  /// This domain with surfaces that share edges joined to one, and solids that share faces and
+  /// measure them alike, where that makes no corner; null where there are none. Made when first
+  /// asked for, after the last change; may be asked for by several threads.
+  [[nodiscard]] std::shared_ptr<const JoinedPieces<Real>> joined() const;
+
+  /// What strings know of it (src/strings); of it as it was when that was first wanted.
+  [[nodiscard]] const OnDemand& space() const { return space_; }
+
+  /// Where the vertices of a piece lie, as it was added; may be empty.
+  [[nodiscard]] std::span<const std::array<double, 3>> positions(const Piece& piece) const {
+    return positions_[piece.number];
+  }
+
+  /// A simplex at a hinge: its number, and which of its corners are the hinge's vertices 0 .. K.
+  struct Member {
+    /// The number inside its piece.
+    Index simplex;
+    /// Its corners that are the hinge's vertices; as many as the hinge has.
+    std::array<std::uint8_t, 3> corner;
+  };
+  /// A hinge of dimension 1 or 2 between two pieces: the simplices at it on either side, from
+  /// begin[side] to end[side] in `members`.
+  struct Hinge {
+    /// 1 or 2: an edge or a triangle.
+    std::uint8_t dimension;
+    /// The pieces on either side.
+    Index piece[2];
+    ///@{
+    /// A range of members() for each side.
+    Index begin[2], end[2];
+    ///@}
+  };
+  /// Two vertices that are one; a hinge of dimension 0 if `hinge`.
+  struct Weld {
+    ///@{
+    /// The two pieces, and the vertex inside each.
+    Index piece[2], vertex[2];
+    ///@}
+    /// Is it a hinge of dimension 0? If not, a larger hinge has both.
+    bool hinge;
+  };
+  /// Of dimension 1 and 2.
+  [[nodiscard]] std::span<const Hinge> hinges() const { return hinges_; }
+  /// Of all these hinges, hinge by hinge.
+  [[nodiscard]] std::span<const Member> members() const { return members_; }
+  /// All pairs of vertices that are one.
+  [[nodiscard]] std::span<const Weld> welds() const { return welds_; }
+  /// The same pairs in the domain's numbers.
+  [[nodiscard]] std::span<const std::array<Index, 2>> outer_welds() const { return outer_welds_; }
+  ///@}
+
+ private:
+  friend struct JoinedPieces<Real>;
+  void check(const Piece& a, const Piece& b, const WeldOptions& options) const;
+
+  MixedSummary summary_;
+  std::vector<Piece> pieces_;
+  std::vector<Complex> complexes_;
+  std::vector<std::vector<std::array<double, 3>>> positions_;
+  std::vector<Hinge> hinges_;
+  std::vector<Member> members_;
+  std::vector<Weld> welds_;
+  std::vector<std::array<Index, 2>> outer_welds_;
+  /// What was asked for, a call of `weld` each.
+  struct Request {
+    Index piece[2];
+    WeldOptions options;
+  };
+  std::vector<Request> requests_;
+  mutable std::shared_ptr<const JoinedPieces<Real>> joined_;
+  mutable bool is_joined_ = false;  // or found to need none
+  OnDemand space_;
+};
+
+extern template class MixedComplex<float>;
+extern template class MixedComplex<double>;
+
+}  // namespace plexway

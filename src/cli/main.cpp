@@ -1,3 +1,0 @@
-#include "cli/app.hpp"
-
-int main(int argc, char** argv) { return plexway::cli::run(argc, argv); }

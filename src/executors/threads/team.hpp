@@ -1,0 +1,214 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include <plexway/common/blocks.hpp>
+#include <plexway/executors.hpp>
+#include <plexway/executors/piece_ranks.hpp>
+
+#include "complexes/partition/deal.hpp"
+
+#include "executors/threads/crowding.hpp"
+
+namespace plexway {
+
+/// Where a team's threads wait for each other: all come, the first then does what must be done
+/// alone, and lets the others go. Waits without sleeping at first, as rounds are short.
+class Gate {
+ public:
+  explicit Gate(int threads) : patience_(threads <= threads_for(0) ? 2000 : 0) {}
+
+  /// For all but the first of so many threads.
+  void pass(int threads) {
+    const unsigned round = round_.load(std::memory_order_relaxed);
+    if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 2 == threads) arrived_.notify_one();
+    wait(round_, [round](unsigned now) { return now != round; });
+  }
+
+  /// For the first: waits for the others, calls `alone`, and opens.
+  template <class Alone>
+  void lead(int threads, const Alone& alone) {
+    gather(threads);
+    alone();
+    open(threads);
+  }
+  /// The same in two: until all others are here; and they may go.
+  void gather(int threads) const {
+    if (threads > 1) wait(arrived_, [threads](int now) { return now == threads - 1; });
+  }
+  void open(int threads) {
+    arrived_.store(0, std::memory_order_relaxed);
+    if (threads == 1) return;
+    round_.fetch_add(1, std::memory_order_release);
+    round_.notify_all();
+  }
+
+ private:
+  template <class Value, class Done>
+  void wait(const std::atomic<Value>& value, Done done) const {
+    for (int i = 0; i < patience_; ++i) {
+      if (done(value.load(std::memory_order_acquire))) return;
+#if defined(__x86_64__) || defined(__i386__)
+      __builtin_ia32_pause();
+#endif
+    }
+    for (int i = 0; i < 32; ++i) {  // somebody may be waiting for this core
+      std::this_thread::yield();
+      if (done(value.load(std::memory_order_acquire))) return;
+    }
+    for (Value now; !done(now = value.load(std::memory_order_acquire));) value.wait(now);
+  }
+
+  int patience_;
+  alignas(64) std::atomic<int> arrived_{0};
+  alignas(64) std::atomic<unsigned> round_{0};
+};
+
+/// Threads that run the same function at once: OpenMP's or, with PLEXWAY_TEAM_OF_THREADS (builds
+/// for ThreadSanitizer, which does not understand OpenMP's own synchronisation), std::thread's; so
+/// it is in a child that was forked, too, where OpenMP's would be waited for without end.
+/// Everything else is the same code.
+class Team {
+ public:
+  /// Throws UsageError for settings that make no sense, NotBuiltError without OpenMP.
+  explicit Team(const OpenMP& executor);
+
+  /// At most so many threads.
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] std::size_t chunk() const { return chunk_; }
+  /// The processes that share pieces, or null, and which pieces are ours.
+  [[nodiscard]] PieceRanks* ranks() const { return ranks_; }
+  [[nodiscard]] Deal deal() const {
+    return ranks_ == nullptr ? Deal{} : Deal{ranks_->rank(), ranks_->count()};
+  }
+
+  /// Calls work(i, n) with i = 0 to n - 1 at once, 0 on the calling thread, and throws the first
+  /// exception that one of them left behind.
+  template <class Work>
+  void run(const Work& work) const {
+    std::exception_ptr failure;
+    std::mutex mutex;
+    const auto guarded = [&](int i, int n) noexcept {
+      try {
+        work(i, n);
+      } catch (...) {
+        const std::scoped_lock lock(mutex);
+        if (!failure) failure = std::current_exception();
+      }
+    };
+    if (alone_ || (held_ != nullptr && Crowding::crowded())) {
+      guarded(0, 1);
+    } else if (held_ == nullptr) {
+      run_guarded(guarded);
+    } else {
+      held_->gate.gather(held_->threads);
+      held_->work = guarded;
+      held_->gate.open(held_->threads);
+      guarded(0, held_->threads);
+      held_->gate.gather(held_->threads);
+    }
+    if (failure) std::rethrow_exception(failure);
+  }
+
+  /// Calls `body` on this thread, and for so long the others are there for `run` and what takes it;
+  /// in between they sleep. OpenMP's own threads spin for milliseconds before and after each piece
+  /// of work, which is another program's time. Where that has the cores there are no others.
+  template <class Body>
+  void hold(const Body& body) const {
+    if (size_ == 1 || held_ != nullptr) {
+      body();
+      return;
+    }
+    const Back back{alone_, alone_};
+    alone_ = Crowding::crowded();
+    if (alone_) {
+      body();
+      return;
+    }
+    Held held(size_);
+    run([&](int i, int threads) {
+      if (i != 0) {
+        for (;;) {
+          held.gate.pass(threads);
+          if (!held.work) return;
+          held.work(i, threads);
+        }
+      }
+      held.threads = threads;
+      held_ = &held;
+      const auto end = [&] {
+        held_ = nullptr;
+        held.gate.gather(threads);
+        held.work = nullptr;
+        held.gate.open(threads);
+      };
+      try {
+        body();
+      } catch (...) {
+        end();
+        throw;
+      }
+      end();
+    });
+  }
+
+  /// Calls work(begin, end) for ranges that make up [0, count).
+  template <class Work>
+  void over(std::size_t count, const Work& work) const {
+    constexpr std::size_t least = 4096;  // less is not worth another thread
+    if (size_ == 1 || count < 2 * least) {
+      work(std::size_t{0}, count);
+      return;
+    }
+    std::atomic<std::size_t> next{0};
+    // Even, so that what is done two at a time is so with any number of threads.
+    const std::size_t share = std::max(least, count / (16 * static_cast<std::size_t>(size_)) * 2);
+    run([&](int, int) {
+      for (;;) {
+        const std::size_t begin = next.fetch_add(share, std::memory_order_relaxed);
+        if (begin >= count) return;
+        work(begin, std::min(begin + share, count));
+      }
+    });
+  }
+
+  /// Calls work(i) for all i < count, by threads as they come.
+  template <class Work>
+  void each(std::size_t count, const Work& work) const {
+    std::atomic<std::size_t> next{0};
+    run([&](int, int) {
+      for (;;) {
+        const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
+        if (i >= count) return;
+        work(i);
+      }
+    });
+  }
+
+ private:
+  struct Held {
+    explicit Held(int size) : gate(size) {}
+    Gate gate;
+    int threads = 1;
+    std::function<void(int, int)> work;
+  };
+  struct Back {
+    bool &value, before;
+    ~Back() { value = before; }
+  };
+  void run_guarded(const std::function<void(int, int)>& work) const;
+
+  int size_;
+  std::size_t chunk_;
+  PieceRanks* ranks_;
+  mutable Held* held_ = nullptr;
+  mutable bool alone_ = false;  ///< held, but by one thread
+};
+
+}  // namespace plexway

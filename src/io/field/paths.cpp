@@ -1,0 +1,226 @@
+#include <plexway/io/paths.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include <plexway/error.hpp>
+
+#include "io/extension.hpp"
+#include "io/output_file.hpp"
+
+namespace plexway::io {
+namespace {
+
+// What is written: of isolines the value of each, by its source.
+struct Paths {
+  std::span<const Path> all;
+  std::span<const double> values = {};
+
+  [[nodiscard]] auto begin() const { return all.begin(); }
+  [[nodiscard]] auto end() const { return all.end(); }
+};
+
+constexpr std::array<std::string_view, 4> path_suffixes = {".obj", ".ply", ".vtp", ".json"};
+
+std::size_t count_points(const Paths& paths) {
+  std::size_t count = 0;
+  for (const Path& path : paths) count += path.positions.size();
+  return count;
+}
+
+void write_path_row(OutputFile& out, const std::array<double, 3>& p, std::string_view between) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (i > 0) out.write(between);
+    out.write_text(p[i]);
+  }
+}
+
+void write_path_obj(OutputFile& out, const Paths& paths) {
+  out.write("# geodesic paths by plexway\n");
+  for (const Path& path : paths)
+    for (const auto& p : path.positions) {
+      out.write("v ");
+      write_path_row(out, p, " ");
+      out.write("\n");
+    }
+  std::size_t next = 1;
+  for (const Path& path : paths) {
+    if (path.positions.size() > 1) {
+      out.write("l");
+      for (std::size_t i = 0; i < path.positions.size(); ++i) {
+        out.write(" ");
+        out.write_text(next + i);
+      }
+      out.write("\n");
+    }
+    next += path.positions.size();
+  }
+}
+
+void write_ply(OutputFile& out, const Paths& paths) {
+  std::size_t edges = 0;
+  for (const Path& path : paths) edges += path.positions.empty() ? 0 : path.positions.size() - 1;
+  out.write("ply\nformat ascii 1.0\ncomment geodesic paths by plexway\nelement vertex " +
+            std::to_string(count_points(paths)) +
+            "\nproperty double x\nproperty double y\nproperty double z\nelement edge " +
+            std::to_string(edges) + "\nproperty int vertex1\nproperty int vertex2\nend_header\n");
+  for (const Path& path : paths)
+    for (const auto& p : path.positions) {
+      write_path_row(out, p, " ");
+      out.write("\n");
+    }
+  std::size_t next = 0;
+  for (const Path& path : paths) {
+    for (std::size_t i = 0; i + 1 < path.positions.size(); ++i) {
+      out.write_text(next + i);
+      out.write(" ");
+      out.write_text(next + i + 1);
+      out.write("\n");
+    }
+    next += path.positions.size();
+  }
+}
+
+void write_vtp(OutputFile& out, const Paths& paths) {
+  std::size_t lines = 0;
+  for (const Path& path : paths) lines += !path.positions.empty();
+  const auto begin = [&](const char* type, const char* name) {
+    out.write(std::string("<DataArray type=\"") + type + "\" Name=\"" + name +
+              "\" format=\"ascii\">\n");
+  };
+  const auto end = [&] { out.write("\n</DataArray>\n"); };
+  out.write(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
+      std::to_string(count_points(paths)) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
+      std::to_string(lines) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n" +
+      "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n");
+  for (const Path& path : paths)
+    for (const auto& p : path.positions) {
+      write_path_row(out, p, " ");
+      out.write("\n");
+    }
+  out.write("</DataArray>\n</Points>\n<Lines>\n");
+  begin("Int64", "connectivity");
+  for (std::size_t i = 0, n = count_points(paths); i < n; ++i) {
+    if (i > 0) out.write(" ");
+    out.write_text(i);
+  }
+  end();
+  begin("Int64", "offsets");
+  std::size_t offset = 0;
+  for (const Path& path : paths) {
+    if (path.positions.empty()) continue;
+    out.write_text(offset += path.positions.size());
+    out.write(" ");
+  }
+  end();
+  out.write("</Lines>\n<CellData Scalars=\"length\">\n");
+  begin("Float64", "length");
+  for (const Path& path : paths) {
+    if (path.positions.empty()) continue;
+    out.write_text(path.length);
+    out.write(" ");
+  }
+  end();
+  begin("Int64", "source");
+  for (const Path& path : paths) {
+    if (path.positions.empty()) continue;
+    out.write_text(static_cast<std::int64_t>(path.source));
+    out.write(" ");
+  }
+  end();
+  if (!paths.values.empty()) {
+    begin("Float64", "value");
+    for (const Path& path : paths) {
+      if (path.positions.empty()) continue;
+      out.write_text(paths.values[path.source]);
+      out.write(" ");
+    }
+    end();
+  }
+  out.write("</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n");
+}
+
+void write_json(OutputFile& out, const Paths& paths) {
+  out.write("{\"paths\": [");
+  for (std::size_t k = 0; k < paths.all.size(); ++k) {
+    const Path& path = paths.all[k];
+    out.write(k == 0 ? "\n{" : ",\n{");
+    const bool reached = std::isfinite(path.length);
+    out.write("\"length\": ");
+    if (reached)
+      out.write_text(path.length);
+    else
+      out.write("null");
+    out.write(", \"source\": ");
+    if (reached)
+      out.write_text(path.source);
+    else
+      out.write("null");
+    if (!paths.values.empty()) {
+      out.write(", \"value\": ");
+      out.write_text(paths.values[path.source]);
+    }
+    out.write(", \"points\": [");
+    for (std::size_t i = 0; i < path.points.size(); ++i) {
+      out.write(i == 0 ? "{\"simplex\": " : ", {\"simplex\": ");
+      out.write_text(path.points[i].simplex);
+      out.write(", \"barycentric\": [");
+      for (std::size_t j = 0; j < 4; ++j) {
+        if (j > 0) out.write(", ");
+        out.write_text(path.points[i].barycentric[j]);
+      }
+      out.write("]}");
+    }
+    out.write("], \"positions\": [");
+    for (std::size_t i = 0; i < path.positions.size(); ++i) {
+      out.write(i == 0 ? "[" : ", [");
+      write_path_row(out, path.positions[i], ", ");
+      out.write("]");
+    }
+    out.write("]}");
+  }
+  out.write("\n]}\n");
+}
+
+using PathWriter = void (*)(OutputFile&, const Paths&);
+constexpr std::array<PathWriter, 4> path_writers = {write_path_obj, write_ply, write_vtp,
+                                                    write_json};
+
+void write_lines(const std::filesystem::path& file, const Paths& paths) {
+  const std::string extension = lower_extension(file);
+  for (std::size_t i = 0; i < path_suffixes.size(); ++i) {
+    if (extension != path_suffixes[i]) continue;
+    for (const Path& path : paths)
+      if (extension != ".json" && path.positions.size() != path.points.size())
+        throw UsageError(file.string() +
+                         ": the vertices have no positions; only .json can hold these paths");
+    OutputFile out(file);
+    path_writers[i](out, paths);
+    out.commit();
+    return;
+  }
+  throw UsageError(unknown_extension(file, path_suffixes));
+}
+
+}  // namespace
+
+std::span<const std::string_view> path_extensions() { return path_suffixes; }
+
+void write_paths(const std::filesystem::path& file, std::span<const Path> paths) {
+  write_lines(file, {paths});
+}
+
+void write_isolines(const std::filesystem::path& file, std::span<const Path> lines,
+                    std::span<const double> values) {
+  for (const Path& line : lines)
+    if (line.source >= values.size())
+      throw UsageError(file.string() + ": a line is of value " + std::to_string(line.source) +
+                       ", and there are " + std::to_string(values.size()));
+  write_lines(file, {lines, values});
+}
+
+}  // namespace plexway::io

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "io/number_type.hpp"
+
+namespace plexway::io {
+
+/// How the arrays of a VTK XML file are stored.
+struct VtuEncoding {
+  std::endian order = std::endian::little;
+  NumberType header = NumberType::u32;  ///< of the lengths in front of each array
+  bool compressed = false;              ///< by zlib, in blocks
+};
+
+/// The bytes of the array that starts at the front of `data`, which may go on behind it.
+///
+/// `base64` tells how `data` is written; otherwise it is raw. `where` starts the messages. Memory
+/// is asked for only as far as `data` can fill it. Throws InputError, or NotBuiltError if it takes
+/// a zlib that is not there.
+///
+/// `room` is how many bytes the arrays of the file may still come to: it gets less by this one, and
+/// an array that needs more is refused before it is unpacked. Pieces may share an array, and each
+/// counts.
+std::string decode_vtu_array(std::string_view data, bool base64, const VtuEncoding& encoding,
+                             const std::string& where, std::uint64_t& room);
+
+}  // namespace plexway::io

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include <plexway/common/ids.hpp>
+
+#include "labels/room.hpp"
+
+namespace plexway {
+
+/// What a piece posts in one superstep, peer by peer. Plain data, so that it may as well be sent.
+class Outbox {
+ public:
+  /// Empty, for so many peers, with room for `most` letters.
+  template <class Letter>
+  void start(std::size_t superstep, std::size_t peers, std::size_t most) {
+    static_assert(std::is_trivially_copyable_v<Letter>);
+    superstep_ = superstep;
+    begin_.assign(peers + 1, 0);
+    peer_ = count_ = 0;
+    letters_.reserve<Letter>(most);
+  }
+  /// One more to the peer in turn.
+  template <class Letter>
+  void add(const Letter& letter) {
+    letters_.reserve<Letter>(0)[count_++] = letter;
+  }
+  void end_peer() { begin_[++peer_] = count_; }
+  /// As `start`, where it is known how many each peer gets: they may then be put in any order.
+  template <class Letter>
+  void start(std::size_t superstep, std::span<const std::size_t> counts) {
+    start<Letter>(superstep, counts.size(),
+                  std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+    std::partial_sum(counts.begin(), counts.end(), begin_.begin() + 1);
+    next_.assign(begin_.begin(), begin_.end());
+    count_ = begin_.back();
+  }
+  /// One more to that peer, behind those that it has.
+  template <class Letter>
+  void put(std::size_t peer, const Letter& letter) {
+    letters_.reserve<Letter>(0)[next_[peer]++] = letter;
+  }
+  /// There are none in any other superstep.
+  void forget() { superstep_ = never; }
+
+  template <class Letter>
+  [[nodiscard]] std::span<const Letter> letters(std::size_t superstep, std::size_t peer) {
+    if (superstep != superstep_) return {};
+    return {letters_.reserve<Letter>(0) + begin_[peer], begin_[peer + 1] - begin_[peer]};
+  }
+  [[nodiscard]] bool has_letters(std::size_t superstep, std::size_t peer) const {
+    return superstep == superstep_ && begin_[peer + 1] > begin_[peer];
+  }
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::size_t bytes() const {
+    return letters_.bytes() + (begin_.capacity() + next_.capacity()) * sizeof(std::size_t);
+  }
+
+ private:
+  static constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
+  Room letters_;
+  std::vector<std::size_t> begin_, next_;
+  std::size_t superstep_ = never, peer_ = 0, count_ = 0;
+};
+
+/// A piece's letters of this superstep and of the one before: nobody reads what somebody writes.
+struct Outboxes {
+  Outbox box[2];
+
+  [[nodiscard]] Outbox& of(std::size_t superstep) { return box[superstep % 2]; }
+  [[nodiscard]] const Outbox& of(std::size_t superstep) const { return box[superstep % 2]; }
+};
+
+/// What a piece did in a superstep.
+struct PieceWork {
+  std::size_t expansions = 0;
+  std::size_t first = 0;  ///< simplices reached that no label had reached before
+  std::size_t letters = 0;
+};
+
+}  // namespace plexway

@@ -1,0 +1,136 @@
+#include "labels/pieces/triangle_patches.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "complexes/partition/partition.hpp"
+#include "labels/piece_memory.hpp"
+#include "labels/pieces/piece_records.hpp"
+
+namespace plexway {
+namespace {
+
+/// Visits the triangles over the edges of one.
+template <class Real>
+auto neighbours_of(const TriangleMesh<Real>& mesh) {
+  return [triangles = mesh.triangles()](Index f, const auto& visit) {
+    for (std::size_t e = 0; e < 3; ++e)
+      any_over_edge(triangles, f, e, [&](Index g) {
+        visit(g);
+        return false;
+      });
+  };
+}
+
+/// The middle of each triangle in space; none where not all are known.
+template <class Real>
+std::vector<std::array<float, 3>> middles(const TriangleMesh<Real>& mesh) {
+  const auto places = mesh.positions();
+  std::vector<std::array<float, 3>> found;
+  if (places.empty()) return found;
+  found.resize(mesh.face_count());
+  for (std::size_t f = 0; f < found.size(); ++f) {
+    const Index(&corner)[3] = mesh.triangles()[f].corner;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double sum = places[corner[0]][i] + places[corner[1]][i] + places[corner[2]][i];
+      if (!std::isfinite(sum)) return {};
+      found[f][i] = static_cast<float>(sum);
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+template <class Real>
+Partition partition_of(const TriangleMesh<Real>& mesh, std::size_t size) {
+  return partition(mesh.face_count(), size, middles(mesh), neighbours_of(mesh));
+}
+
+template <class Real>
+TrianglePatches<Real>::TrianglePatches(const TriangleMesh<Real>& mesh, std::size_t size, Deal deal)
+    : identity_(mesh.identity()),
+      size_(size),
+      deal_(deal),
+      cut_(plexway::cut(partition_of(mesh, size), neighbours_of(mesh))) {
+  patches_.resize(cut_.pieces.size());
+  for (Index p = 0; p < patches_.size(); ++p)
+    if (deal.is_ours(p)) take_records(mesh, p);
+  number_vertices(mesh, cut_, patches_);
+}
+
+template <class Real>
+void TrianglePatches<Real>::take_records(const TriangleMesh<Real>& mesh, Index number) {
+  const CutPiece& piece = cut_.pieces[number];
+  TrianglePatch<Real>& patch = patches_[number];
+  /// All triangles over an edge of a ghost are here if one of them is the piece's own.
+  const auto is_own_over = [&](Index f, std::size_t e) {
+    return any_over_edge(mesh.triangles(), f, e,
+                         [&](Index g) { return cut_.piece_of[g] == number; });
+  };
+  patch.triangles = piece_records(mesh, cut_, number, is_own_over);
+  patch.leads_in.assign(piece.simplices.size() - piece.own, 0);
+  for (std::size_t i = piece.own; i < piece.simplices.size(); ++i)
+    for (std::size_t e = 0; e < 3; ++e)
+      if (is_own_over(piece.simplices[i], e))
+        patch.leads_in[i - piece.own] |= static_cast<std::uint8_t>(1 << e);
+}
+
+template <class Real>
+std::size_t TriangleRoom<Real>::bytes() const {
+  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return marks.bytes() + front.capacity * 2 * sizeof(Index) + labels.bytes() + of(source) +
+         of(posted) + of(is_new) + of(vertex) + of(vertex_source) + mail.box[0].bytes() +
+         mail.box[1].bytes();
+}
+
+template <class Real>
+std::size_t TrianglePatch<Real>::bytes() const {
+  const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return TriangleRoom<Real>::bytes() + of(triangles) + of(leads_in) + of(vertices);
+}
+
+template <class Real>
+std::size_t TrianglePatches<Real>::bytes() const {
+  std::size_t sum = cut_.bytes() + patches_.capacity() * sizeof(patches_[0]);
+  for (const TrianglePatch<Real>& patch : patches_) sum += patch.bytes();
+  return sum;
+}
+
+template struct TriangleRoom<float>;
+template struct TriangleRoom<double>;
+template struct TrianglePatch<float>;
+template struct TrianglePatch<double>;
+template class TrianglePatches<float>;
+template class TrianglePatches<double>;
+template Partition partition_of(const TriangleMesh<float>&, std::size_t);
+template Partition partition_of(const TriangleMesh<double>&, std::size_t);
+
+template <class Real>
+PieceMemory<Real>::PieceMemory() noexcept = default;
+template <class Real>
+PieceMemory<Real>::~PieceMemory() = default;
+template <class Real>
+PieceMemory<Real>::PieceMemory(PieceMemory&&) noexcept = default;
+template <class Real>
+PieceMemory<Real>& PieceMemory<Real>::operator=(PieceMemory&&) noexcept = default;
+
+template <class Real>
+TrianglePatches<Real>& PieceMemory<Real>::of(const TriangleMesh<Real>& mesh, std::size_t size,
+                                             Deal deal) {
+  if (!patches_ || !patches_->is_for(mesh, size, deal)) {
+    patches_.reset();  // its memory first
+    patches_ = std::make_unique<TrianglePatches<Real>>(mesh, size, deal);
+  }
+  return *patches_;
+}
+
+template <class Real>
+std::size_t PieceMemory<Real>::bytes() const {
+  return patches_ ? sizeof(*patches_) + patches_->bytes() : 0;
+}
+
+template class PieceMemory<float>;
+template class PieceMemory<double>;
+
+}  // namespace plexway

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <plexway/surface/triangle_mesh.hpp>
+
+#include "complexes/partition/cut.hpp"
+#include "complexes/partition/deal.hpp"
+#include "labels/front.hpp"
+#include "labels/pieces/mail.hpp"
+#include "labels/room.hpp"
+#include "labels/visit_marks.hpp"
+
+namespace plexway {
+
+/// Visits the triangles over edge e of triangle f, until visit(triangle) says true. Did it?
+template <class Real, class Visit>
+bool any_over_edge(std::span<const TriangleRecord<Real>> triangles, Index f, std::size_t e,
+                   const Visit& visit) {
+  for (Index across = triangles[f].across[e];;) {
+    const Index g = across >> Across::face_shift;
+    const std::size_t k = across & Across::edge_mask;
+    if (g + std::size_t{1} == triangles.size() || (g == f && k == e)) return false;
+    if (visit(g)) return true;
+    if (!(across & Across::fan)) return false;
+    across = triangles[g].across[k];
+  }
+}
+
+/// The triangles of a piece by its numbers, its own and ghosts, and a sentinel.
+template <class Real>
+struct TriangleSheet {
+  std::span<const TriangleRecord<Real>> triangles;
+  std::span<const std::uint8_t> leads_in;  ///< of each ghost: bit e, if one of the piece's own
+                                           ///< lies over its edge e
+  std::size_t vertices;                    ///< of its own triangles: their corners are below
+};
+
+/// What a piece of a surface writes on as labels propagate, kept from solve to solve.
+template <class Real>
+struct TriangleRoom {
+  VisitMarks marks;
+  FrontStorage front;
+  Room labels;
+  std::vector<Index> source;
+  std::vector<Real> posted;          ///< of those at a cut: the distance last told,
+  std::vector<std::uint8_t> is_new;  ///< and is it told now?
+  Outboxes mail;
+  std::vector<Real> vertex;  ///< read-out, and its labels
+  std::vector<Index> vertex_source;
+
+  [[nodiscard]] std::size_t bytes() const;
+};
+
+/// A piece of a surface that one process has.
+template <class Real>
+struct TrianglePatch : TriangleRoom<Real> {
+  /// A ghost's other neighbours are cut off; corners are numbers in `vertices`, those of ghosts
+  /// `none`.
+  std::vector<TriangleRecord<Real>> triangles;
+  std::vector<std::uint8_t> leads_in;  ///< as TriangleSheet has it
+  std::vector<Index> vertices;         ///< of its own triangles: the surface's numbers inside
+  std::size_t shared = 0;              ///< so many of them, the first, are other pieces', too
+
+  [[nodiscard]] TriangleSheet<Real> sheet() const { return {triangles, leads_in, vertices.size()}; }
+  [[nodiscard]] std::size_t bytes() const;
+};
+
+/// A surface cut into pieces.
+template <class Real>
+class TrianglePatches {
+ public:
+  /// About `size` triangles each. Those that are not ours stay without triangles.
+  TrianglePatches(const TriangleMesh<Real>& mesh, std::size_t size, Deal deal = {});
+
+  [[nodiscard]] bool is_for(const TriangleMesh<Real>& mesh, std::size_t size, Deal deal) const {
+    return mesh.identity() == identity_ && size == size_ && deal == deal_;
+  }
+  [[nodiscard]] const Cut& cut() const { return cut_; }
+  [[nodiscard]] std::size_t count() const { return cut_.pieces.size(); }
+  [[nodiscard]] TrianglePatch<Real>& operator[](std::size_t piece) { return patches_[piece]; }
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  void take_records(const TriangleMesh<Real>& mesh, Index piece);
+
+  std::uint64_t identity_;
+  std::size_t size_;
+  Deal deal_;
+  Cut cut_;
+  std::vector<TrianglePatch<Real>> patches_;
+};
+
+/// A surface's triangles in compact parts of about `size`; `cut` comes to it next.
+template <class Real>
+[[nodiscard]] Partition partition_of(const TriangleMesh<Real>& mesh, std::size_t size);
+
+extern template struct TriangleRoom<float>;
+extern template struct TriangleRoom<double>;
+extern template class TrianglePatches<float>;
+extern template class TrianglePatches<double>;
+
+}  // namespace plexway

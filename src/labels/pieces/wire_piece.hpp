@@ -1,0 +1,204 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <plexway/solve/distance_field.hpp>
+#include <plexway/wireframe/wireframe.hpp>
+
+#include "complexes/partition/range_cut.hpp"
+#include "labels/pieces/mail.hpp"
+#include "labels/wireframe/wire_front.hpp"
+#include "labels/wireframe/wire_spread.hpp"
+
+namespace plexway {
+
+/// An offer to a vertex of another piece.
+template <class Real>
+struct WireLetter {
+  Index to, source;
+  Real distance;
+};
+
+/// What a piece of a wireframe keeps from solve to solve.
+template <class Real>
+struct WireRoom {
+  FrontStorage front;
+  std::vector<std::vector<WireLetter<Real>>> letters;  ///< to each peer
+  Outboxes mail;
+
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t sum = front.capacity * 2 * sizeof(Index) +
+                      front.heap.capacity() * sizeof(front.heap[0]) + mail.box[0].bytes() +
+                      mail.box[1].bytes() + letters.capacity() * sizeof(letters[0]);
+    for (const auto& peer : letters) sum += peer.capacity() * sizeof(peer[0]);
+    return sum;
+  }
+};
+
+/// A wireframe cut into ranges of its vertices.
+template <class Real>
+struct WirePieces {
+  std::uint64_t identity = 0;
+  std::size_t size = 0;  ///< that was asked for
+  RangeCut cut;
+  std::vector<WireRoom<Real>> rooms;
+
+  /// Of this one, as it was last time if it is the same. Cost of another: linear, a quarter of a
+  /// solve's.
+  void of(const Wireframe<Real>& wireframe, std::size_t about) {
+    if (identity == wireframe.identity() && size == about) return;
+    const Index* const begin = wireframe.begin().data();
+    const WireArc<Real>* const arcs = wireframe.arcs().data();
+    cut = cut_in_ranges(wireframe.vertex_count(), about, [&](Index v, const auto& visit) {
+      for (Index k = begin[v]; k < begin[v + 1]; ++k) visit(arcs[k].to);
+    });
+    rooms.clear();
+    rooms.resize(cut.cut.pieces.size());
+    for (std::size_t p = 0; p < rooms.size(); ++p)
+      rooms[p].letters.resize(cut.cut.pieces[p].peer_count());
+    identity = wireframe.identity();
+    size = about;
+  }
+
+  [[nodiscard]] std::size_t bytes() const {
+    std::size_t sum = cut.cut.bytes() + rooms.capacity() * sizeof(rooms[0]);
+    for (const auto& room : rooms) sum += room.bytes();
+    return sum;
+  }
+};
+
+/// A range of a wireframe's vertices. Records and labels are the whole's; its own labels only this
+/// piece reads or writes, and what it offers to others is a letter. Not to be moved.
+template <class Real, class Step, bool kLabels>
+class WirePiece {
+ public:
+  using Number = Real;
+  using Letter = WireLetter<Real>;
+  using Spread = WireSpread<Real, Step, kLabels>;
+
+  /// `label` of all vertices; `spread` over them; `step` of the queues; after `patience` looks
+  /// nearest first.
+  WirePiece(WirePieces<Real>& pieces, Index number, Real* label, const Spread& spread, Real step,
+            std::size_t patience)
+      : cut_(pieces.cut),
+        own_(pieces.cut.cut.pieces[number]),
+        begin_(pieces.cut.begin(number)),
+        end_(pieces.cut.end(number)),
+        room_(pieces.rooms[number]),
+        label_(label),
+        spread_(spread.anew()),
+        front_(prepare(room_, end_ - begin_), step),
+        patience_(patience) {
+    for (Outbox& box : room_.mail.box) box.forget();
+    for (auto& peer : room_.letters) peer.clear();
+  }
+  WirePiece(const WirePiece&) = delete;
+  WirePiece& operator=(const WirePiece&) = delete;
+
+  [[nodiscard]] Outboxes& mail() { return room_.mail; }
+  [[nodiscard]] Real nearest() const { return front_.nearest(); }
+
+  /// A label that waits, from outside the supersteps.
+  void give(Index v) { front_.push(v, std::abs(label_[v])); }
+
+  void take(const Letter& letter) {
+    spread_.offer(letter.to, letter.distance, letter.source, front_);
+  }
+
+  /// What is nearer than the horizon before comes late: it repeats what was done without it.
+  PieceWork run(Real horizon, std::size_t most, std::size_t) {
+    PieceWork work;
+    std::size_t left = most;
+    if (nearest() < horizon_) run_to(std::min(horizon_, horizon), left);
+    const std::size_t late = most - left;
+    run_to(horizon, left);
+    horizon_ = std::max(horizon, horizon_);
+    work.expansions = most - left;
+    work.first = work.expansions - late;
+    expansions_ += work.expansions;
+    return work;
+  }
+
+  Real post(std::size_t superstep, PieceWork& work) {
+    std::size_t count = 0;
+    for (const auto& peer : room_.letters) count += peer.size();
+    Real least = std::numeric_limits<Real>::infinity();
+    work.letters = count;
+    if (count == 0) return least;
+    Outbox& box = room_.mail.of(superstep);
+    box.start<Letter>(superstep, own_.peer_count(), count);
+    for (auto& peer : room_.letters) {
+      for (const Letter& letter : peer) {
+        least = std::min(least, letter.distance);
+        box.add(letter);
+      }
+      box.end_peer();
+      peer.clear();
+    }
+    return least;
+  }
+
+  [[nodiscard]] PropagateStatistics statistics() const {
+    return {expansions_, spread_.updates(), spread_.reached()};
+  }
+
+ private:
+  static FrontStorage& prepare(WireRoom<Real>& room, std::size_t own) {
+    room.front.reserve(own);
+    return room.front;
+  }
+
+  struct Where {
+    WirePiece& piece;
+    Index begin, count;
+    [[nodiscard]] bool has(Index v) const { return v - begin < count; }
+    void tell(Index to, Real distance, Index source) const { piece.tell(to, distance, source); }
+  };
+  void tell(Index to, Real distance, Index source) {
+    const auto other = static_cast<Index>(cut_.piece_of(to));
+    if (own_.peers[place_].piece != other) place_ = own_.place_of(other);
+    room_.letters[place_].push_back({to, source, distance});
+  }
+
+  void run_to(Real horizon, std::size_t& left) {
+    front_.set_horizon(horizon);
+    const Where where{*this, begin_, end_ - begin_};
+    // Out of its share: it waits on.
+    const auto more = [&](auto& front) {
+      return [&front](Index v, Real distance) {
+        front.push(v, distance, true);
+        return false;
+      };
+    };
+    if (!front_.sorted()) {
+      DualQueue<Real> queue = front_.dual();
+      const bool quiet = spread_.run(queue, where, left, patience_, more(queue));
+      front_.dual() = queue;
+      patience_ -= std::min(patience_, spread_.looks());
+      if (quiet) return;
+      front_.sort();
+      for (Index v = begin_; v < end_; ++v)
+        if (std::signbit(label_[v])) front_.push(v, -label_[v]);
+    }
+    spread_.run(front_, where, left, std::numeric_limits<std::size_t>::max(), more(front_));
+  }
+
+  const RangeCut& cut_;
+  const CutPiece& own_;
+  Index begin_, end_;
+  WireRoom<Real>& room_;
+  Real* label_;
+  Spread spread_;
+  WireFront<Real> front_;
+  std::size_t patience_;
+  std::size_t place_ = 0;  // of the peer that was told last
+  Real horizon_ = 0;
+  std::size_t expansions_ = 0;
+};
+
+}  // namespace plexway

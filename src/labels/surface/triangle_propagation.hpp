@@ -1,0 +1,198 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <plexway/solve/distance_field.hpp>
+#include <plexway/solve/options.hpp>
+#include <plexway/source/point_source.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
+
+#include "labels/surface/triangle_spread.hpp"
+#include "labels/wavefront.hpp"
+#include "labels/workspace_state.hpp"
+
+namespace plexway {
+
+/// One propagation over a surface from seeds to the last label, for any rule and front.
+template <class Real, class Rule, class Front, bool kLabels>
+class TrianglePropagation {
+ public:
+  TrianglePropagation(const TriangleMesh<Real>& mesh, WorkspaceState<Real>& workspace, Rule rule,
+                      Front& front, const PropagateOptions& options)
+      : mesh_(mesh),
+        triangles_(mesh.triangles()),
+        workspace_(workspace),
+        front_(front),
+        radius_(static_cast<Real>(options.radius / mesh.unit())),
+        spread_(triangles_, rule, front, radius_, mesh.summary().refracting_edges > 0,
+                mesh.face_count()) {}
+
+  void seed(const PointSource& source, Index number) {
+    const Real sigma = static_cast<Real>(source.offset / mesh_.unit());
+    if (source.vertex != none) {
+      seed_vertex(mesh_.inside_vertex(source.vertex), sigma, number);
+      return;
+    }
+    std::array<double, 4> b = source.barycentric;
+    const auto [f, turned] = mesh_.inside_face(source.simplex);
+    if (turned) std::swap(b[1], b[2]);
+    seed_inside(f, b, sigma, number);
+  }
+
+  /// The same by numbers and in the unit inside.
+  void seed_inside(Index f, const std::array<double, 4>& b, Real sigma, Index number) {
+    for (int i = 0; i < 3; ++i)
+      if (b[static_cast<std::size_t>(i)] == 1) {
+        seed_vertex(triangles_[f].corner[i], sigma, number);
+        return;
+      }
+    const TriangleRecord<Real>& t = triangles_[f];
+    const double x =
+        b[1] * static_cast<double>(t.length[0]) + b[2] * static_cast<double>(t.apex_x(0));
+    const double y = b[2] * static_cast<double>(t.apex_h(0));
+    spread_.rule().seed_inside(f, static_cast<Real>(x), static_cast<Real>(y), sigma, number);
+  }
+
+  void seed_vertex(Index vertex, Real sigma, Index number) {
+    mesh_.corners_at(vertex, workspace_.corners);
+    for (const Index c : workspace_.corners)
+      spread_.rule().seed_corner(c / 3, c % 3, sigma, number);
+  }
+
+  void run() {
+    run([&](bool last_resort) { spread(last_resort); });
+  }
+  /// With another way to expand all that waits: spread(last_resort).
+  template <class Spread>
+  void run(const Spread& spread_all) {
+    int revivals = 0;
+    do {
+      spread_all(last_resort(revivals));
+      if (front_.out_of_budget()) return;
+    } while (mend(revivals));
+  }
+
+  /// Expands triangles for the front of a thread. `rounds.updates()` says how much was done so far.
+  template <class Other, class Rounds>
+  [[nodiscard]] auto expander(Other& front, bool last_resort, const Rounds& rounds) const {
+    return Expander<Other, Rounds>{*this, front, rule().on(front), rounds, last_resort};
+  }
+  [[nodiscard]] const Rule& rule() const { return spread_.rule(); }
+
+ private:
+  template <class Other, class Rounds>
+  struct Expander {
+    const TrianglePropagation& propagation;
+    Other& front;
+    decltype(std::declval<const Rule&>().on(std::declval<Other&>())) rule;
+    const Rounds& rounds;
+    bool last_resort;
+
+    void operator()(Index f) {
+      const auto& spread = propagation.spread_;
+      if (spread.refracts()) [[unlikely]]
+        spread.limit(rule, rounds.updates());
+      spread.expand(rule, front, f, last_resort,
+                    [this](Index g, std::size_t edge) { rule.cross(g, edge, last_resort); });
+    }
+    void narrow(Index f) const requires requires(const Rule& any) { any.narrow(f); }
+    { rule.narrow(f); }
+    void far_ahead(Index f) const { rule.prefetch(f); }
+    void ahead(Index f) const { rule.prefetch_around(f); }
+  };
+
+ public:  // the parts of run, for those who do more in between or must not look at the whole
+  static bool last_resort(int revivals) { return revivals > 8; }
+  /// Once none waits: true if some wait again.
+  bool mend(int& revivals) {
+    ++revivals;
+    return pass_pinches(mesh_.pinched()) || revive();
+  }
+
+  void spread(bool last_resort) {
+    Index f = 0;
+    while (!spread_.share(last_resort, f)) {
+      if (!front_.take_stock(spread_.rule().distance(f))) return;
+      if (spread_.refracts()) spread_.limit(spread_.rule(), front_.updates());
+    }
+  }
+
+  /// A path may pass a vertex where fans of triangles only touch: it bends there (a hinge of
+  /// dimension 0). True if some triangle got a better label.
+  bool pass_pinches(std::span<const Index> pinched) {
+    bool any = false;
+    for (const Index v : pinched) any |= bend_at(v, path_to(v));
+    return any;
+  }
+
+  /// The best path to a vertex, of those in its triangles.
+  struct Path {
+    Real distance = std::numeric_limits<Real>::infinity();
+    Index source = none;
+  };
+  /// Of its triangles count those below `end`.
+  [[nodiscard]] Path path_to(Index vertex, Index end = none) const {
+    mesh_.corners_at(vertex, workspace_.corners);
+    Path best;
+    for (const Index c : workspace_.corners) {
+      if (c / 3 >= end || !front_.reached(c / 3)) continue;
+      const Real d = spread_.rule().corner_distance(c / 3, c % 3);
+      if (d < best.distance) best = {d, front_.source(c / 3)};
+    }
+    return best;
+  }
+  /// Goes on from there into all of them. True if one got a better label.
+  bool bend_at(Index vertex, const Path& best, Index end = none) {
+    if (!(best.distance < std::numeric_limits<Real>::infinity()) || best.distance > radius_)
+      return false;
+    bool any = false;
+    mesh_.corners_at(vertex, workspace_.corners);
+    for (const Index c : workspace_.corners) {
+      if (c / 3 >= end) continue;
+      const std::size_t i = c % 3;
+      // Within rounding of its own path it stays with that one; else this would not end.
+      if (front_.reached(c / 3) &&
+          spread_.rule().corner_distance(c / 3, i) <=
+              best.distance * (1 + 64 * std::numeric_limits<Real>::epsilon()))
+        continue;
+      any |= spread_.rule().seed_corner(c / 3, i, best.distance, best.source);
+    }
+    return any;
+  }
+
+  /// Updates that turn around a vertex where no path bends are dropped. Where that leaves a
+  /// triangle without any label, they are taken after all; after some rounds of it, everywhere, so
+  /// that rounds end.
+  bool revive() {
+    const std::size_t faces = mesh_.face_count();
+    if (front_.reached_count() == faces || radius_ < std::numeric_limits<Real>::infinity())
+      return false;
+    return revive_all();
+  }
+  /// Without a look whether there are any.
+  bool revive_all() {
+    const std::size_t before = front_.updates();
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      if (!front_.reached(f)) continue;
+      for (std::size_t e = 0; e < 3; ++e) {
+        const Index g = triangles_[f].across[e] >> Across::face_shift;
+        if (!front_.reached(g) && e != front_.hinge(f)) spread_.rule().cross(f, e, true);
+      }
+    }
+    return front_.updates() != before;
+  }
+
+ private:
+  const TriangleMesh<Real>& mesh_;
+  std::span<const TriangleRecord<Real>> triangles_;
+  WorkspaceState<Real>& workspace_;
+  Front& front_;
+  Real radius_;
+  TriangleSpread<Real, Rule, Front> spread_;
+};
+
+}  // namespace plexway

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <plexway/common/ids.hpp>
+#include <plexway/solve/workspace.hpp>
+
+#include "labels/front.hpp"
+#include "labels/label_storage.hpp"
+#include "labels/piece_memory.hpp"
+#include "labels/plain_label.hpp"
+#include "labels/room.hpp"
+#include "labels/simplicial/simplex_label.hpp"
+#include "labels/solid/plain_solid_label.hpp"
+#include "labels/solid/solid_label.hpp"
+#include "labels/surface/lowering_rooms.hpp"
+#include "labels/surface/saddle_label.hpp"
+#include "labels/visit_marks.hpp"
+#include "windows/window_memory.hpp"
+
+namespace plexway {
+
+class MixedStrings;
+class SolidStrings;
+
+/// All that a propagation changes, in the open.
+template <class Real>
+struct WorkspaceState {
+  /// Which simplices have a label.
+  VisitMarks marks;
+  LabelStorage<SaddleLabel<Real>> saddles;           ///< Visibility::saddles
+  LabelStorage<PlainLabel<Real>> plain;              ///< the other policies
+  LabelStorage<SolidLabel<Real>> solids;             ///< in solids: Visibility::saddles
+  LabelStorage<PlainSolidLabel<Real>> plain_solids;  ///< in solids: the other policies
+  SimplexLabels<Real> simplex;                       ///< SimplicialComplex
+  std::vector<Index> source;   ///< nearest source a simplex; empty for one source
+  WindowMemory<Real> windows;  ///< on surfaces: accuracies but `fast`
+  /// The queues.
+  FrontStorage front;
+  TeamRooms team;                                 ///< for executors with several threads
+  PieceMemory<Real> pieces;                       ///< likewise, on surfaces
+  std::vector<Real> vertex;                       ///< read-out, in the numbers inside
+  std::vector<Index> vertex_source;               ///< its labels
+  std::shared_ptr<SolidStrings> strings;          ///< in solids: strings/solid_strings.hpp
+  std::shared_ptr<MixedStrings> media;            ///< in mixed domains: strings/mixed_strings.hpp
+  std::vector<Index> corners;                     ///< around one vertex
+  std::unique_ptr<LoweringRooms<Real>> lowering;  ///< read_out_edges
+  ///@{
+  /// On mixed domains: one a piece that is propagated on, and what a member of a hinge has offered
+  /// already.
+  std::vector<WorkspaceState> parts;
+  std::vector<Real> offered;
+  ///@}
+
+  /// Room for a front and marks over so many simplices and a sentinel behind them; all unreached
+  /// but the sentinel, which nothing can improve.
+  void start(std::size_t simplices, bool labels) {
+    marks.resize(simplices + 1);
+    marks.start();
+    marks.data()[simplices] = marks.current();
+    if (labels) source.resize(simplices + 1);
+  }
+
+  /// Bytes held.
+  [[nodiscard]] std::size_t bytes() const {
+    const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+    std::size_t of_parts = 0;
+    for (const WorkspaceState& part : parts) of_parts += part.bytes();
+    return of_parts + of(offered) + sizeof(*this) + marks.bytes() +
+           saddles.count * sizeof(SaddleLabel<Real>) + plain.count * sizeof(PlainLabel<Real>) +
+           solids.count * sizeof(SolidLabel<Real>) +
+           plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +
+           windows.bytes() + of(vertex) + of(vertex_source) + of(corners) +
+           (lowering ? sizeof(*lowering) + lowering->bytes() : 0) +
+           front.capacity * 2 * sizeof(Index) + of(front.heap) + team.bytes() + pieces.bytes();
+  }
+};
+
+}  // namespace plexway

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <plexway/fields/read_out.hpp>
+#include <plexway/paths/path.hpp>
+#include <plexway/source/point_source.hpp>
+
+#include "sampling/cells.hpp"
+
+namespace plexway {
+
+/// What paths over cells need of a field.
+struct CellField {
+  const Cells& cells;
+  std::span<const double> distance;                  ///< by number in Cells
+  std::span<const PointSource> sources;              ///< those that it is the field of
+  std::span<const std::array<double, 3>> positions;  ///< one a vertex of the domain; may be empty
+};
+
+/// A field's distances by number in Cells.
+template <class Real>
+std::vector<double> cell_distances(const Cells& cells, std::span<const Real> field) {
+  std::vector<double> distance(cells.vertex_count(), std::numeric_limits<double>::infinity());
+  for (std::size_t v = 0; v < field.size(); ++v) {
+    double& d = distance[cells.vertex(static_cast<Index>(v))];
+    d = std::min(d, static_cast<double>(field[v]));
+  }
+  return distance;
+}
+
+/// A shortest path from vertices' distances alone: the shortest way over places in the cells
+/// (search_cells), pulled taut and improved around what holds it. Where that is longer by more than
+/// 5e-4 than the distance, inside a cell than a way by one of its corners, with more places. An
+/// empty path where none leads.
+Path trace_cells(const CellField& field, const PointSource& point);
+
+/// The distance of a point: the length of its path, but inside of a cell none longer than by a
+/// corner. +inf where no path leads.
+double read_cells(const CellField& field, const PointSource& point, ReadOut level);
+
+}  // namespace plexway

@@ -1,0 +1,398 @@
+#include <plexway/paths/path_field.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include <plexway/error.hpp>
+
+#include "executors/checks.hpp"
+#include "fields/surface_read_out.hpp"
+#include "fields/window_read_out.hpp"
+#include "paths/cell_trace.hpp"
+#include "paths/laid_path.hpp"
+#include "paths/solved.hpp"
+#include "paths/string_paths.hpp"
+#include "paths/surface_trace.hpp"
+#include "paths/wire_trace.hpp"
+
+namespace plexway {
+namespace {
+
+template <class Real>
+SourceDomain described(const TriangleMesh<Real>& mesh) {
+  return {mesh.vertex_count(), mesh.face_count(), "face", 3};
+}
+template <class Real>
+SourceDomain described(const TetMesh<Real>& mesh) {
+  return {mesh.vertex_count(), mesh.tet_count(), "tet", 4};
+}
+template <class Real>
+SourceDomain described(const Wireframe<Real>& wireframe) {
+  return {wireframe.vertex_count(), wireframe.edge_count(), "edge", 2};
+}
+
+template <class Real>
+Path trace_in(const TetMesh<Real>& mesh, const Solved<Real>& solved, const PointSource& point) {
+  return StringPaths<Real>(mesh, solved).trace(point);
+}
+template <class Real>
+Path trace_in(const Wireframe<Real>& wireframe, const Solved<Real>& solved,
+              const PointSource& point) {
+  return trace_wire(wireframe, solved, point);
+}
+
+// Along an edge of a wireframe paths come by its ends, or from a source on it.
+template <class Real>
+struct WireReadOut {
+  WireReadOut(const Wireframe<Real>&, const Solved<Real>& what) : solved(what) {}
+  const Solved<Real>& solved;
+};
+
+template <class Domain>
+struct ReadOutFor;
+template <class Real>
+struct ReadOutFor<TriangleMesh<Real>> {
+  using Type = SurfaceReadOut<Real>;
+};
+template <class Real>
+struct ReadOutFor<TetMesh<Real>> {
+  using Type = StringPaths<Real>;
+};
+template <class Real>
+struct ReadOutFor<Wireframe<Real>> {
+  using Type = WireReadOut<Real>;
+};
+template <class Domain>
+using ReadOutOf = typename ReadOutFor<Domain>::Type;
+
+template <class Real>
+double distance_in(const TriangleMesh<Real>& mesh, const SurfaceReadOut<Real>& read_out,
+                   const PointSource& at, ReadOut level) {
+  const auto [f, turned] = mesh.inside_face(at.simplex);
+  return read_out.at(f, inside(at.barycentric, turned), level) * mesh.unit();
+}
+template <class Real>
+double distance_in(const TetMesh<Real>& mesh, const StringPaths<Real>& paths, const PointSource& at,
+                   ReadOut level) {
+  const auto [t, turned] = mesh.inside_tet(at.simplex);
+  std::array<double, 4> weight = at.barycentric;
+  if (turned) std::swap(weight[2], weight[3]);
+  return paths.at(t, weight, level);
+}
+template <class Real>
+double distance_in(const Wireframe<Real>& wireframe, const WireReadOut<Real>& read_out,
+                   const PointSource& at, ReadOut level) {
+  const Solved<Real>& solved = read_out.solved;
+  const auto [from, to, inside] = wireframe.inside_edge(at.simplex);
+  const double length = static_cast<double>(inside) * wireframe.unit();
+  const double a = static_cast<double>(solved.field.distance[solved.outer[from]]);
+  const double b = static_cast<double>(solved.field.distance[solved.outer[to]]);
+  const double s = at.barycentric[1], rest = at.barycentric[0];
+  if (level == ReadOut::linear) return (rest > 0 ? rest * a : 0) + (s > 0 ? s * b : 0);
+  double best = std::min(a + s * length, b + rest * length);
+  for (const PointSource& source : solved.sources)
+    if (source.vertex == none && source.simplex == at.simplex)
+      best = std::min(best, source.offset + std::abs(source.barycentric[1] - s) * length);
+  return best;
+}
+
+template <class Real>
+double linear_in(const TriangleMesh<Real>& mesh, std::span<const Index> outer,
+                 std::span<const Real> distance, const PointSource& at) {
+  const auto [f, turned] = mesh.inside_face(at.simplex);
+  const std::array<double, 3> weight = inside(at.barycentric, turned);
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (weight[i] > 0)
+      sum += weight[i] * static_cast<double>(distance[outer[mesh.triangles()[f].corner[i]]]);
+  return sum;
+}
+
+/// The middle of a triangle of the input, as a point of one of `mesh`, not on its rim, where the
+/// way back is not told from others. Numbers inside.
+template <class Real>
+std::pair<Index, std::array<double, 3>> middle(const TriangleMesh<Real>& mesh,
+                                               const IntrinsicDelaunay* delaunay, Index simplex) {
+  constexpr double third = 1. / 3, least = 1e-9;
+  std::array<double, 3> at = {third, third, third};
+  Index face = simplex;
+  if (delaunay != nullptr) {
+    const PointSource there = delaunay->to_intrinsic(PointSource::in(simplex, at));
+    face = there.simplex;
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) sum += at[i] = std::max(there.barycentric[i], least);
+    for (double& share : at) share /= sum;
+  }
+  const auto [f, turned] = mesh.inside_face(face);
+  return {f, inside({at[0], at[1], at[2], 0}, turned)};
+}
+
+/// From vertices inside to the caller's.
+template <class Domain>
+std::vector<Index> vertices_outside(const Domain& domain) {
+  const std::span<const Index> inside = domain.vertices_inside();
+  std::vector<Index> outer(inside.size());
+  for (std::size_t v = 0; v < inside.size(); ++v) outer[inside[v]] = static_cast<Index>(v);
+  return outer;
+}
+
+}  // namespace
+
+template <template <class> class Domain, class Real>
+PathField<Domain<Real>>::PathField(const Domain<Real>& domain,
+                                   std::span<const std::array<double, 3>> positions)
+    : PathField(domain, nullptr, domain, positions) {}
+
+template <template <class> class Domain, class Real>
+PathField<Domain<Real>>::PathField(
+    const Domain<Real>& domain, const IntrinsicDelaunay& delaunay, const Domain<Real>& input,
+    std::span<const std::array<double, 3>> positions) requires(Domain<Real>::kind ==
+                                                               DomainKind::surface)
+    : PathField(domain, &delaunay, input, positions) {}
+
+template <template <class> class Domain, class Real>
+PathField<Domain<Real>>::PathField(const Domain<Real>& domain, const IntrinsicDelaunay* delaunay,
+                                   const Domain<Real>& given,
+                                   std::span<const std::array<double, 3>> positions)
+    : domain_(&domain), given_(&given), delaunay_(delaunay), positions_(positions) {
+  // Without one space around that lines are straight in.
+  if constexpr (!std::is_same_v<Domain<Real>, Wireframe<Real>>)
+    if (given.metric() ==
+        (Domain<Real>::kind == DomainKind::solid ? MetricKind::intrinsic : MetricKind::refracting))
+      cells_ = std::make_shared<const ComplexCells<Real>>(given);
+  if (!positions.empty() && positions.size() != given.vertex_count())
+    throw UsageError(std::to_string(positions.size()) + " positions for " +
+                     std::to_string(given.vertex_count()) +
+                     " vertices: give one a vertex, or none");
+  outer_ = vertices_outside(domain);
+  if (delaunay != nullptr) given_outer_ = vertices_outside(given);
+  if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
+    outer_simplices_.resize(domain.tet_count());
+    for (Index t = 0; t < domain.tet_count(); ++t) outer_simplices_[domain.inside_tet(t).first] = t;
+  }
+  if constexpr (std::is_same_v<Domain<Real>, Wireframe<Real>>) {
+    // Rows hold their arcs in the order of the edges.
+    outer_simplices_.resize(domain.arcs().size());
+    std::vector<Index> end(domain.begin().begin(), domain.begin().end() - 1);
+    for (Index e = 0; e < domain.edge_count(); ++e) {
+      const auto edge = domain.inside_edge(e);
+      outer_simplices_[end[edge.from]++] = e;
+      if (edge.from != edge.to) outer_simplices_[end[edge.to]++] = e;
+    }
+  }
+}
+
+template <template <class> class Domain, class Real>
+std::span<const PointSource> PathField<Domain<Real>>::take(std::span<const PointSource> sources) {
+  solved_ = false;
+  sources_.assign(sources.begin(), sources.end());
+  if constexpr (Domain<Real>::kind == DomainKind::surface)
+    if (delaunay_ != nullptr) {
+      given_sources_ = sources_;
+      for (PointSource& source : sources_) {
+        check_source(source, described(*given_));
+        source = delaunay_->to_intrinsic(source);
+      }
+    }
+  return sources_;
+}
+
+template <template <class> class Domain, class Real>
+void PathField<Domain<Real>>::took(const PropagateOptions& options, Kept kept) {
+  visibility_ = options.visibility;
+  kept_ = kept;
+  if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>)
+    if (!cells_ && kept != Kept::windows) {
+      PropagateOptions by_strings = options;
+      by_strings.max_expansions = PropagateOptions{}.max_expansions;  // others are counted
+      DistanceField<Real> unused;
+      auto& strings = workspace_.state().strings;
+      if (!strings) strings = std::make_shared<SolidStrings>();
+      strings->solve(*domain_, sources_, by_strings, unused);
+    }
+  if (cells_) cell_distance_ = cell_distances<Real>(*cells_, field_.distance);
+  solved_ = true;
+}
+
+template <template <class> class Domain, class Real>
+Solved<Real> PathField<Domain<Real>>::solved() const {
+  const windows::KeptWindows<Real>* windows = nullptr;
+  if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>)
+    if (kept_ == Kept::windows) windows = workspace_.state().windows.solver()->kept();
+  return {workspace_.state(),
+          field_,
+          sources_,
+          delaunay_ ? std::span<const std::array<double, 3>>() : positions_,
+          {},
+          outer_,
+          outer_simplices_,
+          visibility_,
+          kept_ == Kept::labels,
+          windows};
+}
+
+template <template <class> class Domain, class Real>
+Path PathField<Domain<Real>>::trace(const PointSource& point, const TraceOptions& options) const {
+  if (!solved_) throw UsageError("there is nothing to trace before a solve");
+  const PointSource at = checked(point);
+  check(options, *domain_);
+  if (cells_) return trace_cells({*cells_, cell_distance_, given_sources(), positions_}, at);
+  const Solved<Real> solved = this->solved();
+  const auto found = [&]() -> Path {
+    if constexpr (Domain<Real>::kind == DomainKind::surface) {
+      const SurfaceTrace<Real> trace(*domain_, solved);
+      if (delaunay_ == nullptr) return trace.trace(at, options);
+      const PulledWay way = trace.find(delaunay_->to_intrinsic(at), options);
+      if (way.source == none) return {};
+      return LaidPaths<Real>(*given_, *delaunay_, positions_, given_outer())
+          .lay(*domain_, way, at, given_sources_[way.source]);
+    } else {
+      return trace_in(*domain_, solved, at);
+    }
+  };
+  return or_no_way_at_all(found(), solved, at);
+}
+
+// What left no labels counts as GL, which does not either. A solid has positions of its own.
+template <template <class> class Domain, class Real>
+Support PathField<Domain<Real>>::support_of(Purpose purpose) const {
+  if (!solved_) throw UsageError("there is nothing to read before a solve");
+  return support(purpose, *domain_, visibility_,
+                 kept_ == Kept::nothing ? ExecutorKind::gl : ExecutorKind::serial,
+                 Domain<Real>::kind == DomainKind::solid || !positions_.empty());
+}
+
+template <template <class> class Domain, class Real>
+PointSource PathField<Domain<Real>>::checked(const PointSource& point) const {
+  PointSource at = point;
+  at.offset = 0;
+  check_source(at, described(*given_));
+  return at;
+}
+
+template <template <class> class Domain, class Real>
+double PathField<Domain<Real>>::at(const PointSource& point, ReadOut level) const {
+  return at(std::span<const PointSource>(&point, 1), level)[0];
+}
+
+template <template <class> class Domain, class Real>
+std::vector<double> PathField<Domain<Real>>::at(std::span<const PointSource> points,
+                                                ReadOut level) const {
+  const Support supported = support_of(Purpose::read_out);
+  if (level != ReadOut::linear) supported.require();
+  const Solved<Real> solved = this->solved();
+  const ReadOutOf<Domain<Real>> read_out(*domain_, solved);
+  std::vector<double> distance;
+  distance.reserve(points.size());
+  for (const PointSource& point : points) {
+    PointSource at = checked(point);
+    if (at.vertex != none) {
+      distance.push_back(static_cast<double>(field_.distance[at.vertex]));
+      continue;
+    }
+    if (cells_) {
+      distance.push_back(
+          read_cells({*cells_, cell_distance_, given_sources(), positions_}, at, level));
+      continue;
+    }
+    if constexpr (Domain<Real>::kind == DomainKind::surface) {
+      if (level == ReadOut::linear) {
+        distance.push_back(
+            linear_in(*given_, given_outer(), std::span<const Real>(field_.distance), at));
+        continue;
+      }
+      if (delaunay_ != nullptr) at = delaunay_->to_intrinsic(at);
+    }
+    distance.push_back(distance_in(*domain_, read_out, at, level));
+  }
+  return distance;
+}
+
+template <template <class> class Domain, class Real>
+std::vector<std::array<double, 3>> PathField<Domain<Real>>::gradient() const {
+  support_of(Purpose::directions).require();
+  std::vector<std::array<double, 3>> directions;
+  if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
+    const Solved<Real> solved = this->solved();
+    const StringPaths<Real> paths(*domain_, solved);
+    for (Index tet = 0; tet < domain_->tet_count(); ++tet)
+      directions.push_back(paths.gradient(domain_->inside_tet(tet).first));
+  }
+  if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
+    const Solved<Real> solved = this->solved();
+    const SurfaceReadOut<Real> read_out(*domain_, solved);
+    directions.assign(given_->face_count(), {0, 0, 0});
+    for (Index face = 0; face < given_->face_count(); ++face) {
+      const auto [f, from] = middle(*domain_, delaunay_, face);
+      const auto to = read_out.towards(f, from);
+      if (!to) continue;
+      std::vector<StraightPiece> lines = {{f, from, *to}};
+      if (delaunay_ != nullptr) lines = laid_on(*given_, *delaunay_, *domain_, lines[0]);
+      const Index own = given_->inside_face(face).first;
+      std::array<double, 3>& way = directions[face];
+      for (const StraightPiece& line : lines)
+        for (std::size_t i = 0; i < 3 && line.face == own; ++i) {
+          const Index v = given_outer()[given_->triangles()[own].corner[i]];
+          for (std::size_t k = 0; k < 3; ++k)
+            way[k] += (line.from[i] - line.to[i]) * positions_[v][k];
+        }
+      const double length = std::hypot(way[0], way[1], way[2]);
+      for (double& x : way) x = length > 0 ? x / length : 0;
+    }
+  }
+  return directions;
+}
+
+template <template <class> class Domain, class Real>
+std::vector<Index> PathField<Domain<Real>>::simplex_labels() const {
+  support_of(Purpose::simplex_labels).require();
+  std::vector<Index> labels;
+  const auto take = [&](Index inside) {
+    const bool many = sources_.size() > 1;
+    labels.push_back(!workspace_.state().marks.reached(inside) ? none
+                     : many                                    ? workspace_.state().source[inside]
+                                                               : 0);
+  };
+  if constexpr (std::is_same_v<Domain<Real>, TriangleMesh<Real>>) {
+    const Solved<Real> solved = this->solved();
+    const WindowReadOut<Real> windows(*domain_, solved);
+    for (Index face = 0; face < given_->face_count(); ++face) {
+      const auto [f, at] = middle(*domain_, delaunay_, face);
+      if (solved.windows)
+        labels.push_back(windows.look(f, at).source);
+      else
+        take(f);
+    }
+  } else if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
+    if (cells_) {
+      for (Index t = 0; t < domain_->tet_count(); ++t) take(domain_->inside_tet(t).first);
+    } else {
+      const Solved<Real> solved = this->solved();
+      const StringPaths<Real> paths(*domain_, solved);
+      for (Index t = 0; t < domain_->tet_count(); ++t)
+        labels.push_back(paths.source(domain_->inside_tet(t).first));
+    }
+  }
+  return labels;
+}
+
+template <template <class> class Domain, class Real>
+std::size_t PathField<Domain<Real>>::bytes() const {
+  return (outer_.capacity() + outer_simplices_.capacity()) * sizeof(Index) + workspace_.bytes() +
+         field_.distance.capacity() * sizeof(Real) + field_.label.capacity() * sizeof(Index) +
+         sources_.capacity() * sizeof(PointSource) + (cells_ ? cells_->bytes() : 0) +
+         cell_distance_.capacity() * sizeof(double);
+}
+
+template class PathField<TriangleMesh<float>>;
+template class PathField<TriangleMesh<double>>;
+template class PathField<TetMesh<float>>;
+template class PathField<TetMesh<double>>;
+template class PathField<Wireframe<float>>;
+template class PathField<Wireframe<double>>;
+
+}  // namespace plexway

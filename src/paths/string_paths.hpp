@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+
+#include <plexway/fields/read_out.hpp>
+#include <plexway/paths/path.hpp>
+#include <plexway/solid/tet_mesh.hpp>
+#include <plexway/source/point_source.hpp>
+
+#include "paths/solid_walk.hpp"
+#include "paths/solved.hpp"
+#include "strings/solid_strings.hpp"
+
+namespace plexway {
+
+/// Paths, and distances of points, in a solid in space: the strings that a solve left in the
+/// workspace, to vertices and to points of tetrahedra. Tetrahedra have the numbers inside.
+template <class Real>
+class StringPaths {
+ public:
+  StringPaths(const TetMesh<Real>& mesh, const Solved<Real>& solved)
+      : mesh_(mesh), solved_(solved), strings_(*solved.workspace.strings), walk_(mesh) {}
+
+  /// The way from a point back to its source, cut where it goes from tetrahedron to tetrahedron.
+  /// Empty where none leads.
+  [[nodiscard]] Path trace(const PointSource& point) const;
+  /// In the solid's unit.
+  [[nodiscard]] double at(Index t, const std::array<double, 4>& weight, ReadOut level) const;
+  /// Unit direction away from the source at the centre; 0 where that is there, or no path leads.
+  [[nodiscard]] std::array<double, 3> gradient(Index t) const;
+  /// The nearest source to the centre; none where no path leads.
+  [[nodiscard]] Index source(Index t) const;
+
+ private:
+  using Point = strings::Point;
+
+  [[nodiscard]] Path cut(const SolidStrings::Found& found, std::vector<Index> tets) const;
+
+  const TetMesh<Real>& mesh_;
+  const Solved<Real>& solved_;
+  const SolidStrings& strings_;
+  SolidWalk<Real> walk_;
+};
+
+extern template class StringPaths<float>;
+extern template class StringPaths<double>;
+
+}  // namespace plexway

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <plexway/paths/path.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
+
+#include "paths/straighten.hpp"
+#include "paths/strip.hpp"
+#include "paths/surface_shape.hpp"
+
+namespace plexway {
+
+/// A way from a point to a source: strips that meet in vertices.
+struct StripWay {
+  std::vector<Strip> legs;
+  Index source = none;
+  std::vector<Index> bends = {};  ///< vertices, as far as they are known before it is pulled
+};
+
+/// The same, pulled.
+struct PulledWay {
+  std::vector<Strip> legs;
+  std::vector<PulledStrip> pulled;
+  double length = 0;
+  Index source = none;
+  std::size_t windows = 0;  ///< looked at
+  bool capped = false;      ///< and there were more
+};
+
+/// A straight line in a triangle, numbers inside.
+struct StraightPiece {
+  Index face;
+  std::array<double, 3> from, to;
+};
+
+/// A triangle, a corner of it, and a direction there, as an angle from the edge of that number.
+struct Heading {
+  Index face;
+  std::size_t corner;
+  double angle;
+};
+
+/// What ways of strips become paths with.
+template <class Real>
+class StripPaths {
+ public:
+  using Position = std::array<double, 3>;
+
+  /// Lengths are those between `positions`, one a vertex in the caller's order, or if there are
+  /// none, the mesh's. `outer` leads from the vertices inside to the caller's.
+  StripPaths(const TriangleMesh<Real>& mesh, std::span<const Position> positions,
+             std::span<const Index> outer)
+      : mesh_(mesh),
+        positions_(positions),
+        outer_(outer),
+        shape_(mesh, positions, outer),
+        straightener_(mesh_, shape_) {}
+  StripPaths(const StripPaths&) = delete;
+  StripPaths& operator=(const StripPaths&) = delete;
+
+  [[nodiscard]] const SurfaceShape<Real>& shape() const { return shape_; }
+
+  /// Turns at a vertex from one direction to another; where no triangles lead around, one leg ends
+  /// and the next begins.
+  void add(StripWay& way, Strip& leg, Heading& at, const Heading& to) const;
+  /// One way of strips that meet in vertices.
+  [[nodiscard]] StripWay joined(std::vector<Strip> strips, Index source) const;
+  /// Locally shortest.
+  [[nodiscard]] PulledWay straighten(StripWay way) const;
+  /// Its straight lines, each in a triangle, those of no length left out; never empty.
+  [[nodiscard]] static std::vector<StraightPiece> pieces(const PulledWay& way);
+  /// `drawn` are the positions of a surface with lengths of its own.
+  [[nodiscard]] Path to_path(const PulledWay& way, std::span<const Position> drawn = {}) const;
+
+ private:
+  const TriangleMesh<Real>& mesh_;
+  std::span<const Position> positions_;
+  std::span<const Index> outer_;
+  SurfaceShape<Real> shape_;
+  Straightener<Real> straightener_;
+};
+
+extern template class StripPaths<float>;
+extern template class StripPaths<double>;
+
+}  // namespace plexway

@@ -1,0 +1,145 @@
+#include "shape/arguments/point_argument.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include <plexway/error.hpp>
+#include <plexway/shape/support.hpp>
+
+#include "shape/arguments/require.hpp"
+#include "shape/warnings/survey.hpp"
+#include "shape/words.hpp"
+
+namespace plexway {
+namespace {
+
+constexpr std::string_view vertex_prefix = "vertex:";
+constexpr std::string_view point_prefix = "point:";
+
+[[noreturn]] void malformed(const std::string& text, const std::string& role) {
+  throw UsageError("--" + role + " '" + text + "': " + meant_place(text) +
+                   "write vertex:ID (0-based) or point:X,Y,Z");
+}
+
+// Any integer: one that does not fit is out of range in every file, and not a slip of the syntax.
+std::optional<Index> parse_id(std::string_view text) {
+  if (text.substr(0, 1) == "-") text.remove_prefix(1);
+  if (text.empty() || text.find_first_not_of("0123456789") != text.npos) return std::nullopt;
+  Index id = none;
+  const char* const end = text.data() + text.size();
+  return std::from_chars(text.data(), end, id).ec == std::errc{} ? id : none;
+}
+
+}  // namespace
+
+std::string meant_place(std::string_view text) {
+  const bool number = !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+  if (!number && !parse_point(text)) return "";
+  return std::string("did you mean '").append(number ? vertex_prefix : point_prefix) +
+         std::string(text) + "'? ";
+}
+
+std::optional<std::array<double, 3>> parse_point(std::string_view text) {
+  std::array<double, 3> point;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, point[i]);
+    if (error != std::errc{} || !std::isfinite(point[i])) return std::nullopt;
+    text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
+    if (i == 2) break;
+    if (text.substr(0, 1) != ",") return std::nullopt;
+    text.remove_prefix(1);
+  }
+  if (!text.empty()) return std::nullopt;
+  return point;
+}
+
+SourceArgument parse_source(const std::string& text, const std::string& role) {
+  const std::string_view view = text;
+  if (view.substr(0, vertex_prefix.size()) == vertex_prefix) {
+    const std::string_view number = view.substr(vertex_prefix.size());
+    const auto id = parse_id(number);
+    if (!id) malformed(text, role);
+    return {text, number.front() == '-' ? none : *id, role};
+  }
+  if (view.substr(0, point_prefix.size()) == point_prefix) {
+    const auto point = parse_point(view.substr(point_prefix.size()));
+    if (!point) malformed(text, role);
+    return {text, *point, role};
+  }
+  malformed(text, role);
+}
+
+std::vector<SourceArgument> parse_sources(const std::vector<std::string>& texts,
+                                          const std::string& role) {
+  std::vector<SourceArgument> arguments;
+  for (const std::string& text : texts) arguments.push_back(parse_source(text, role));
+  return arguments;
+}
+
+PointSource locate_source(const AnyShape& domain, const SourceArgument& argument) {
+  if (const auto* point = std::get_if<1>(&argument.where)) {
+    require_input(domain.file().string() + ": " + argument.role + " " + argument.text,
+                  support(Purpose::places, domain));
+    return domain.closest(*point);
+  }
+  const Index vertex = std::get<0>(argument.where);
+  if (vertex >= domain.vertices()) {
+    throw InputError(domain.file().string() + ": " + argument.role + " " + argument.text +
+                     " is out of range: the vertices are 0 to " +
+                     std::to_string(domain.vertices() - 1));
+  }
+  return PointSource::at(vertex);
+}
+
+std::vector<PointSource> locate_sources(const AnyShape& domain,
+                                        const std::vector<SourceArgument>& arguments) {
+  std::vector<PointSource> sources;
+  for (const SourceArgument& argument : arguments)
+    sources.push_back(locate_source(domain, argument));
+  return sources;
+}
+
+std::optional<double> distance_from(const AnyShape& domain, const SourceArgument& argument,
+                                    const PointSource& source) {
+  const auto* point = std::get_if<1>(&argument.where);
+  if (point == nullptr) return std::nullopt;
+  const auto at = domain.position(source);
+  return std::hypot(at[0] - (*point)[0], at[1] - (*point)[1], at[2] - (*point)[2]);
+}
+
+std::vector<std::string> far_notes(const AnyShape& domain,
+                                   const std::vector<SourceArgument>& arguments,
+                                   std::span<const PointSource> found) {
+  std::vector<std::string> notes;
+  std::optional<double> diagonal;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto away = distance_from(domain, arguments[i], found[i]);
+    if (!away) continue;
+    if (!diagonal) {
+      const Bounds box = bounding_box(domain.positions());
+      diagonal =
+          std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+    }
+    if (*away > 0.01 * *diagonal)
+      notes.push_back("--" + arguments[i].role + " " + arguments[i].text + " is " +
+                      short_number(*away) + " from the " + std::string(kind_noun(domain.kind())) +
+                      " (" + short_number(*away / *diagonal) +
+                      " of its diagonal): the closest point was taken");
+  }
+  return notes;
+}
+
+std::string describe_source(const AnyShape& domain, const SourceArgument& argument,
+                            const PointSource& source) {
+  const auto off = distance_from(domain, argument, source);
+  if (!off) return "vertex " + std::to_string(source.vertex);
+  const std::string place = source.vertex != none ? "vertex " + std::to_string(source.vertex)
+                                                  : singular(domain.simplex_name()) + " " +
+                                                        std::to_string(source.simplex);
+  return argument.text + " (" + place + ", " + short_number(*off) + " away)";
+}
+
+}  // namespace plexway

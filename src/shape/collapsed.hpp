@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include <plexway/shape/open_simplices.hpp>
+
+#include "shape/shape_state.hpp"
+
+namespace plexway {
+
+/// Looks for simplices with a corner twice. They have no area and no place in a complex, but keep
+/// their numbers: they are as if masked. (An edge from a vertex to itself is one that no path
+/// takes.)
+void find_collapsed(AnyShape::State& state);
+
+/// "2 triangles have a corner twice and are left out, 17 is the first"; empty where none has.
+[[nodiscard]] std::string collapsed_sentence(const AnyShape& shape);
+
+}  // namespace plexway

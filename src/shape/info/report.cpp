@@ -1,0 +1,54 @@
+#include "shape/info/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "io/output_place.hpp"
+
+namespace plexway {
+
+void Table::add(std::string label, std::string text) {
+  lines_.emplace_back(std::move(label), std::move(text));
+}
+
+void Table::add(const Table& other) {
+  lines_.insert(lines_.end(), other.lines_.begin(), other.lines_.end());
+}
+
+std::string Table::text() const {
+  std::size_t widest = 0;
+  for (const auto& line : lines_) widest = std::max(widest, line.first.size());
+  std::string text;
+  for (const auto& [label, what] : lines_)
+    text += label + std::string(widest + 2 - label.size(), ' ') + what + "\n";
+  return text;
+}
+
+void Phases::end(std::string name) {
+  const double now = watch_.seconds();
+  parts_.emplace_back(std::move(name), now - before_);
+  before_ = now;
+}
+
+void Phases::tell(Json& json, Table& table) const {
+  std::string text;
+  for (const auto& [name, seconds] : parts_) {
+    json["seconds"][name] = seconds;
+    text += (text.empty() ? "" : ", ") + name + " " + short_time(seconds);
+  }
+  table.add("time", text);
+}
+
+void add_written(Table& table, std::initializer_list<std::string> files) {
+  for (const std::string& file : files)
+    if (!file.empty() && !io::on_standard_output(file)) table.add("written", file);
+}
+
+std::string json_text(const Json& object) {
+  return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+}  // namespace plexway

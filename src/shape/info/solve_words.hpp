@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <plexway/any_domain.hpp>
+
+#include "shape/info/report.hpp"
+
+namespace plexway {
+
+///@{
+/// What a report says of an executor: "serial", "openmp" or "gl"; how many threads it takes;
+/// "openmp with 4 threads". And the names of those that this build has.
+[[nodiscard]] std::string_view executor_name(const AnyExecutor& executor);
+[[nodiscard]] std::size_t executor_threads(const AnyExecutor& executor);
+[[nodiscard]] std::string describe(const AnyExecutor& executor);
+[[nodiscard]] std::vector<std::string_view> built_executors();
+///@}
+
+/// Is there more than one accuracy on domains of a kind?
+[[nodiscard]] bool has_accuracies(DomainKind kind);
+
+///@{
+/// What a report says of an accuracy: its name, or the mean error; and of a domain with more than
+/// one accuracy "accuracy", and "windows_gave_up" where they did.
+[[nodiscard]] Json json_of(Accuracy accuracy);
+[[nodiscard]] std::string name_of(Accuracy accuracy);
+void add_accuracy(DomainKind kind, Accuracy accuracy, const PropagateStatistics& statistics,
+                  Json& json);
+///@}
+
+}  // namespace plexway

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include <plexway/shape/open_simplices.hpp>
+#include <plexway/source/source_list.hpp>
+
+namespace plexway {
+
+/// Sources as the complex has them: behind a mask simplices have other numbers there.
+class Inside {
+ public:
+  Inside(const OpenSimplices* open, const SourceList& sources) : sources_(sources) {
+    if (open == nullptr) return;
+    if (sources.only_points()) {
+      for (const PointSource& point : sources.points()) points_.push_back(open->inside(point));
+      sources_ = SourceList(points_);
+    } else {
+      for (const Source& source : sources.sources()) any_.push_back(open->inside(source));
+      sources_ = SourceList(any_);
+    }
+  }
+  Inside(const Inside&) = delete;
+  Inside& operator=(const Inside&) = delete;
+
+  [[nodiscard]] const SourceList& list() const { return sources_; }
+
+ private:
+  std::vector<PointSource> points_;
+  std::vector<Source> any_;
+  SourceList sources_;
+};
+
+}  // namespace plexway

@@ -1,0 +1,165 @@
+#include "shape/point_file.hpp"
+
+#include <array>
+#include <string>
+
+#include <plexway/error.hpp>
+
+#include "io/extension.hpp"
+#include "io/field/npy_header.hpp"
+#include "io/output_file.hpp"
+
+namespace plexway {
+namespace {
+
+using io::OutputFile;
+
+[[noreturn]] void unknown(const std::filesystem::path& out,
+                          std::span<const std::string_view> known) {
+  std::string names;
+  for (const std::string_view name : known) names.append(" ").append(name);
+  throw UsageError("--out " + out.string() + ": unknown extension; those written are" + names);
+}
+
+void write_row(OutputFile& out, std::span<const double> numbers, char between) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i > 0) out.write(std::string_view(&between, 1));
+    out.write_text(numbers[i]);
+  }
+}
+
+void start_ply(OutputFile& out, std::size_t vertices) {
+  out.write("ply\nformat ascii 1.0\nelement vertex ");
+  out.write_text(vertices);
+  out.write("\nproperty double x\nproperty double y\nproperty double z\n");
+}
+
+}  // namespace
+
+std::span<const std::string_view> point_file_extensions() {
+  static constexpr std::array<std::string_view, 4> known = {".csv", ".npy", ".obj", ".ply"};
+  return known;
+}
+
+std::span<const std::string_view> matrix_file_extensions() {
+  static constexpr std::array<std::string_view, 2> known = {".csv", ".npy"};
+  return known;
+}
+
+std::span<const std::string_view> surface_file_extensions() {
+  static constexpr std::array<std::string_view, 3> known = {".obj", ".off", ".ply"};
+  return known;
+}
+
+void write_points(const std::filesystem::path& out, const AnyShape& domain,
+                  std::span<const PointSource> points, std::string_view value_name,
+                  std::span<const double> value) {
+  const std::string extension = io::lower_extension(out);
+  // Of the points of a cloud of which some were left out.
+  const std::span<const std::uint32_t> original = domain.cloud() != nullptr
+                                                      ? std::span(domain.cloud()->points.original)
+                                                      : std::span<const std::uint32_t>();
+  OutputFile file(out);
+  if (extension == ".csv") {
+    file.write("x,y,z,vertex,simplex,b0,b1,b2,b3");
+    if (!value.empty()) file.write(","), file.write(value_name);
+    if (!original.empty()) file.write(",original");
+    file.write("\n");
+  } else if (extension == ".npy") {
+    file.write(io::npy_header("'<f8'", std::to_string(points.size()) + ", 3"));
+  } else if (extension == ".ply") {
+    start_ply(file, points.size());
+    if (!value.empty()) {
+      file.write("property double ");
+      file.write(value_name);
+      file.write("\n");
+    }
+    if (!original.empty()) file.write("property uint original\n");
+    file.write("end_header\n");
+  } else if (extension != ".obj") {
+    unknown(out, point_file_extensions());
+  }
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const PointSource& point = points[n];
+    const auto at = domain.position(point);
+    if (extension == ".npy") {
+      for (const double x : at) file.write_binary(x);
+      continue;
+    }
+    if (extension == ".obj") file.write("v ");
+    write_row(file, at, extension == ".csv" ? ',' : ' ');
+    if (extension == ".csv") {
+      const bool at_vertex = point.vertex != none;
+      for (const Index number : {point.vertex, at_vertex ? none : point.simplex}) {
+        file.write(",");
+        file.write_text(number == none ? std::int64_t{-1} : std::int64_t{number});
+      }
+      file.write(",");
+      write_row(file, point.barycentric, ',');
+    }
+    if (!value.empty() && extension != ".obj") {
+      file.write(extension == ".csv" ? "," : " ");
+      file.write_text(value[n]);
+    }
+    if (!original.empty() && extension != ".obj") {
+      file.write(extension == ".csv" ? "," : " ");
+      file.write_text(original[point.vertex]);
+    }
+    file.write("\n");
+  }
+  file.commit();
+}
+
+void write_matrix(const std::filesystem::path& out, std::size_t n, std::span<const double> values) {
+  const std::string extension = io::lower_extension(out);
+  OutputFile file(out);
+  if (extension == ".npy") {
+    file.write(io::npy_header("'<f8'", std::to_string(n) + ", " + std::to_string(n)));
+    for (const double x : values) file.write_binary(x);
+  } else if (extension == ".csv") {
+    for (std::size_t i = 0; i < n; ++i) {
+      write_row(file, values.subspan(i * n, n), ',');
+      file.write("\n");
+    }
+  } else {
+    unknown(out, matrix_file_extensions());
+  }
+  file.commit();
+}
+
+void write_surface(const std::filesystem::path& out, std::span<const std::array<double, 3>> points,
+                   std::span<const std::array<std::uint32_t, 3>> triangles) {
+  const std::string extension = io::lower_extension(out);
+  OutputFile file(out);
+  if (extension == ".off") {
+    file.write("OFF\n");
+    file.write_text(points.size());
+    file.write(" ");
+    file.write_text(triangles.size());
+    file.write(" 0\n");
+  } else if (extension == ".ply") {
+    start_ply(file, points.size());
+    file.write("element face ");
+    file.write_text(triangles.size());
+    file.write("\nproperty list uchar int vertex_indices\nend_header\n");
+  } else if (extension != ".obj") {
+    unknown(out, surface_file_extensions());
+  }
+  for (const auto& p : points) {
+    if (extension == ".obj") file.write("v ");
+    write_row(file, p, ' ');
+    file.write("\n");
+  }
+  const bool obj = extension == ".obj";
+  for (const auto& t : triangles) {
+    file.write(obj ? "f" : "3");
+    for (const auto v : t) {
+      file.write(" ");
+      file.write_text(v + (obj ? 1 : 0));
+    }
+    file.write("\n");
+  }
+  file.commit();
+}
+
+}  // namespace plexway

@@ -1,0 +1,382 @@
+#include "shape/warnings/field_remarks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include <plexway/cloud/point_cloud.hpp>
+#include <plexway/shape/complex.hpp>
+
+#include "shape/cloud_words.hpp"
+#include "shape/collapsed.hpp"
+#include "shape/spelling.hpp"
+#include "shape/warnings/bent_crossings.hpp"
+#include "shape/warnings/rim_detours.hpp"
+#include "shape/warnings/survey.hpp"
+#include "shape/warnings/violations.hpp"
+#include "shape/words.hpp"
+
+namespace plexway {
+
+namespace {
+
+// Vertices that are sources, and reached by `distance`: a function of a vertex.
+template <class Distance>
+std::vector<std::size_t> reached_sources(const Distance& distance, const SourceList& sources) {
+  std::set<std::size_t> at;
+  const auto take = [&](Index v) {
+    if (v != none && std::isfinite(distance(v))) at.insert(v);
+  };
+  for (const PointSource& point : sources.points()) take(point.vertex);
+  for (const Source& source : sources.sources()) {
+    if (const auto* point = std::get_if<PointSource>(&source)) take(point->vertex);
+    if (const auto* set = std::get_if<VertexSource>(&source))
+      for (const Index v : set->vertices) take(v);
+  }
+  return {at.begin(), at.end()};
+}
+
+// More than one point, or vertex of a set?
+bool are_several(const SourceList& sources) {
+  std::size_t count = sources.points().size();
+  for (const Source& source : sources.sources()) {
+    count += std::holds_alternative<PointSource>(source) ? 1 : 0;
+    if (const auto* set = std::get_if<VertexSource>(&source)) count += set->vertices.size();
+  }
+  return count > 1;
+}
+
+bool are_points(const SourceList& sources) {
+  const auto all = sources.sources();
+  return std::all_of(all.begin(), all.end(), [](const Source& source) {
+    return std::holds_alternative<PointSource>(source);
+  });
+}
+
+}  // namespace
+
+FieldReach reach_of(std::span<const double> distance, const SourceList& sources) {
+  FieldReach outcome;
+  outcome.max_distance = -std::numeric_limits<double>::infinity();
+  for (std::size_t v = 0; v < distance.size(); ++v) {
+    if (!std::isfinite(distance[v])) continue;
+    ++outcome.reached;
+    if (distance[v] <= outcome.max_distance) continue;
+    outcome.max_distance = distance[v];
+    outcome.farthest = v;
+  }
+  outcome.from = reached_sources([&](Index v) { return distance[v]; }, sources);
+  // Where sets leave nothing to reach, nothing failed.
+  const bool covered = outcome.from.size() == distance.size() && !are_points(sources);
+  outcome.beside_source = covered ? outcome.from.size() : outcome.reached - outcome.from.size();
+  return outcome;
+}
+
+namespace {
+
+// Which vertices are in a simplex.
+std::vector<bool> used_in(const AnyShape& domain) {
+  std::vector<bool> used(domain.vertices(), false);
+  for (std::size_t s = 0; s < domain.simplices(); ++s)
+    for (const auto v : domain.corners(s)) used[v] = true;
+  return used;
+}
+
+// What is known of a solid by its edges: that paths bend at notches, and that tetrahedra which
+// share edges alone look like quads of a curved surface.
+std::string solid_sentence(const AnyDomain& solver) {
+  if (solver.kind() != DomainKind::solid) return "";
+  return with_complex(solver, []<class C>(const C& complex) -> std::string {
+    if constexpr (C::kind == DomainKind::solid) {
+      const SolidSummary& solid = complex.summary();
+      if (solid.notch_edges > 0)
+        return "paths bend around " + counted(solid.notch_edges, "edges") +
+               " of the boundary, which no rule sees in a solid by lengths or tensors: distances "
+               "behind them may be up to a sixth too short";
+      if (solid.boundary_faces == 4 * solid.tets && solid.pinched_edges > 0)
+        return "no two of the " + counted(solid.tets, "tetrahedra") +
+               " share a face; if they are quads of a surface, split each into the triangles "
+               "(0, 1, 2) and (0, 2, 3)";
+    }
+    return "";
+  });
+}
+
+// Why not all was reached.
+std::string why_unreached(const AnyDomain& solver, Reader reader) {
+  const AnyShape& domain = solver.shape();
+  std::string why;
+  if (domain.cloud() != nullptr) {
+    if (solver.components() > 1)
+      why = why_disconnected(*domain.cloud(), solver.components(), reader);
+  } else {
+    why = "the " + std::string(kind_noun(domain.kind())) + " has " +
+          counted(solver.components(), "components");
+    const std::vector<bool> used = used_in(domain);
+    const auto apart = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+    if (apart > 0) {
+      why.append(", ").append(counted(apart, "vertices")).append(apart == 1 ? " is" : " are");
+      why.append(" in none of its ").append(domain.simplex_name());
+    }
+    const auto* const surface = std::get_if<io::Triangles>(&domain.data());
+    if (surface != nullptr && solver.components() > 1 && !surface->positions.empty())
+      if (const std::size_t twins = count_coincident(surface->positions, surface->triangles);
+          twins > 0)
+        why.append(", and ")
+            .append(counted(twins, "vertices"))
+            .append(twins == 1 ? " lies exactly where another one does"
+                               : " lie exactly where another does");
+  }
+  return why;
+}
+
+}  // namespace
+
+std::string apart_sentence(const AnyShape& domain, std::span<const std::size_t> from) {
+  if (domain.cloud() != nullptr) return "";
+  const std::vector<bool> used = used_in(domain);
+  const auto apart =
+      std::find_if(from.begin(), from.end(), [&](std::size_t v) { return !used[v]; });
+  if (apart == from.end()) return "";
+  std::string text = "vertex " + std::to_string(*apart) + " is in none of the " +
+                     std::string(domain.simplex_name()) + ", so no other is reached from it";
+  const auto at = domain.positions();
+  if (at.empty()) return text;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t nearest = used.size();
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (!used[v]) continue;
+    const auto &p = at[v], &q = at[*apart];
+    const double away = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+    if (away < least) least = away, nearest = v;
+  }
+  if (nearest < used.size())
+    text += "; the nearest that is in one is vertex " + std::to_string(nearest) + ", " +
+            short_number(least) + " away";
+  return text;
+}
+
+std::vector<Remark> domain_remarks(const AnyDomain& solver, Reader reader) {
+  std::vector<Remark> remarks;
+  const auto remark = [&](std::string text, bool doubtful = true) {
+    remarks.push_back({std::move(text), doubtful});
+  };
+  const auto said = [&](Advice advice) { return std::string(spelled(advice, reader)); };
+  const AnyShape& domain = solver.shape();
+  if (std::string left_out = collapsed_sentence(domain); !left_out.empty())
+    remark(std::move(left_out));
+  for (const std::string& note : domain.report().notes) remark(note, false);
+  if (std::string solid = solid_sentence(solver); !solid.empty()) remark(std::move(solid));
+  if (const MeasuredLengths* lengths = solver.lengths(); lengths != nullptr && lengths->smoothed)
+    remark(smoothed_sentence() + said(Advice::meant));
+  if (std::string broken = violations_sentence(solver); !broken.empty()) remark(std::move(broken));
+  if (domain.cloud() != nullptr && domain.cloud()->not_finite > 0)
+    remark(counted(domain.cloud()->not_finite, "points") +
+               " not finite, and dropped: vertices count those that are left; " +
+               said(Advice::original) + " their numbers in the file",
+           false);
+  if (const CloudSummary* cloud = solver.cloud()) {
+    if (cloud->near_duplicates > 0)
+      remark(counted(cloud->near_duplicates, "points") +
+                 " much nearer to an earlier one than all others are: they count as that one",
+             false);
+    if (100 * cloud->bridges > cloud->distinct)
+      remark(counted(cloud->bridges, "points") +
+             " hang together by single edges: no surface was found there, and ways go from point "
+             "to point; more neighbours may help (" +
+             said(Advice::k) + std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) +
+             ")");
+    const bool refused =
+        !domain.cloud()->points.normals.empty() && domain.cloud()->normals().empty();
+    const std::string given = said(Advice::in_the_file), columns = said(Advice::columns);
+    const std::string cure = refused ? "normals that all point to one side would tell (" +
+                                           said(Advice::those) + " do not, and are not taken)"
+                                     : "normals" + given + " tell " + columns;
+    if (cloud->torn_points > 0)
+      remark(counted(cloud->torn_points, "points") + " (" + std::to_string(cloud->first_torn) +
+             " is the first) around holes that could not be closed, as points there do not tell "
+             "which side of the surface they are on: distances near them may be far off; " +
+             cure);
+    if (cloud->chord_points > 0)
+      remark(counted(cloud->chord_points, "points") + " (" + std::to_string(cloud->first_chord) +
+             " is the first) at sharp ridges where points do not tell how the surface runs: edges "
+             "cut through the inside, and distances over them may be far too short; more points "
+             "near the ridge or less noise (" +
+             said(Advice::smooth) + ") help, and " + cure);
+    if (cloud->joints > 0)
+      remark(counted(cloud->joints, "pairs") +
+             " of points join parts that have no triangles between them: all ways from one to the "
+             "other go over these; " +
+             (refused ? "" : "normals" + given + " " + columns + " or ") +
+             "points along the edge where they meet would join them");
+  }
+  if (const BentCrossings bent = bent_crossings(solver); bent.hinges > 0)
+    remark("solids have " + counted(bent.edges, "edges") +
+           " around which ways bend, and faces or edges where the speed changes: single vertices "
+           "whose ways do both may be up to a sixth too far" +
+           (bent.cracks > 0 ? ", most of all where cracks end on such faces; where cracks join on "
+                              "one, single vertices may be too near, by a quarter at worst"
+                            : ""));
+  // A single crack has two ends.
+  if (const SolidBends bends = solid_bends(solver); bends.cracks > 0 && bends.edges > 2)
+    remark("solids of the domain have cracks, and " + counted(bends.edges, "edges") +
+           " around which ways bend: single vertices behind several of them may be up to a quarter "
+           "too far");
+  return remarks;
+}
+
+std::vector<Remark> work_remarks(const FieldWork& work, Reader reader) {
+  std::vector<Remark> remarks;
+  const auto remark = [&](std::string text) { remarks.push_back({std::move(text)}); };
+  const auto said = [&](Advice advice) { return std::string(spelled(advice, reader)); };
+  const PropagateStatistics& done = work.statistics;
+  const std::size_t all = work.vertices * work.fields;
+  const std::string rows = work.fields > 1 ? " of " + counted(work.fields, "rows") : "";
+  if (const std::size_t fields = done.windows_gave_up; fields > 0)
+    remark("windows became too many to wait for" +
+           (fields > 1 ? " from " + counted(fields, "sources") : std::string()) +
+           ": the distances are those of " + said(Advice::fast) + "; " + said(Advice::exact) +
+           " waits longer");
+  if (!work.complete)
+    remark("stopped after " + counted(done.expansions, "expansions") +
+           ": distances may still be too long");
+  // Labels that got much wrong say so, and windows are the cure where there are any. Where speeds
+  // jump there are none, and what travels along an edge is lowered though nothing is wrong.
+  const bool cured = work.has_windows && work.accuracy == Accuracy::fast();
+  const std::string cure = cured ? "; " + said(Advice::accurate) + " has none of this" : "";
+  // By windows it is rounding alone that makes distances too short.
+  const bool rounds = work.edges > 0 && work.accuracy != Accuracy::fast();
+  const std::size_t raised = done.raised_vertices;
+  if (100 * raised > all)
+    remark(counted(raised, "vertices") + rows +
+           " came out nearer than the straight line through space, and were given its length: "
+           "distances here are poor" +
+           (cured    ? cure
+            : rounds ? "; " + said(Advice::twice) + " may do better"
+            : work.has_triangulations
+                ? "; another " + said(Advice::triangulation) + " may do better"
+                : ""));
+  const std::size_t lowered = done.lowered_vertices;
+  if ((cured ? 50 : 20) * lowered > all)
+    remark(counted(lowered, "vertices") + rows +
+           " came out farther than a neighbour and the edge between, and were given that way: "
+           "distances here are less accurate" +
+           cure);
+  // Rounding turns a line of sight a little at each edge. Where a straight line in space is known
+  // it mends what windows lose by that.
+  const bool by_labels = work.accuracy == Accuracy::fast();
+  if (work.edges > (!work.in_space && !by_labels ? 1e4 : 5e4))
+    remark("distances of up to " + short_number(work.edges) +
+           " edges: single precision may be off by more than 1e-4; use " + said(Advice::twice));
+  return remarks;
+}
+
+namespace {
+
+FieldWork work_of(const AnyDomain& domain, const PropagateStatistics& statistics,
+                  Accuracy accuracy) {
+  const bool has_windows =
+      (domain.kind() == DomainKind::surface || domain.kind() == DomainKind::cloud) &&
+      domain.refracting_edges() == 0;
+  return {.statistics = statistics,
+          .accuracy = accuracy,
+          .has_windows = has_windows,
+          .has_triangulations = domain.kind() == DomainKind::surface,
+          .vertices = domain.vertices()};
+}
+
+double largest(const AnyField& field) {
+  return std::visit(
+      [](const auto& f) {
+        double most = 0;
+        for (const auto d : f.distance)
+          if (std::isfinite(d)) most = std::max(most, static_cast<double>(d));
+        return most;
+      },
+      field.data);
+}
+
+}  // namespace
+
+std::vector<Remark> field_remarks(const AnyDomain& solver, const AnyField& field,
+                                  const SourceList& sources, Reader reader) {
+  std::vector<Remark> remarks;
+  const auto remark = [&](std::string text) { remarks.push_back({std::move(text)}); };
+  const AnyShape& domain = solver.shape();
+  if (!(largest(field) > 0)) {
+    const auto from = reached_sources([&](Index v) { return field[v]; }, sources);
+    if (std::string apart = apart_sentence(domain, from); !apart.empty()) remark(std::move(apart));
+  }
+  if (const CloudSummary* cloud = solver.cloud()) {
+    const auto from = reached_sources([&](Index v) { return field[v]; }, sources);
+    const RimDetours detours =
+        rim_detours(domain.positions(), cloud->mean_spacing, field.doubles(), from);
+    if (detours.points > 0)
+      remark(counted(detours.points, "points") + " (" + std::to_string(detours.first) +
+             " is the first) " +
+             (detours.all ? detours.points == 1 ? "is" : "are" : "and more are") + " 5 to " +
+             std::to_string(static_cast<int>(std::ceil(100 * detours.most))) +
+             " % farther from the source than straight, though the cloud is flat there: ways go "
+             "around a notch in its rim or a void; that is too far if the surface does not end "
+             "there, and more points there help");
+  }
+  if (const std::size_t edges = are_several(sources) ? solid_bends(solver).edges : 0; edges > 0)
+    remark(
+        "ways from several sources bend around " + counted(edges, "edges") +
+        " of solids: single vertices between what is nearest to the one and to the other "
+        "may be up to a quarter too far; the least of a field from each source is more accurate");
+  FieldWork work = work_of(solver, field.statistics(), field.accuracy());
+  work.complete = field.complete();
+  work.in_space = !domain.positions().empty();
+  if (const double edge = solver.mean_edge(); solver.precision() == Precision::single && edge > 0)
+    work.edges = largest(field) / edge;
+  for (Remark& one : work_remarks(work, reader)) remarks.push_back(std::move(one));
+  return remarks;
+}
+
+bool is_bounded(const PropagateOptions& options) {
+  return std::isfinite(options.radius) ||
+         options.max_expansions != PropagateOptions{}.max_expansions;
+}
+
+Remark unreached_remark(std::size_t count, std::string why, bool bounded, Reader reader) {
+  if (bounded)
+    why.append(why.empty() ? "" : ", and ")
+        .append(spelled(Advice::bounds, reader))
+        .append(" ends the search early");
+  return {counted(count, "vertices") + " not reached (inf)" + (why.empty() ? "" : ": " + why),
+          false};
+}
+
+std::vector<Remark> reach_remarks(const AnyDomain& domain, const AnyField& field,
+                                  const PropagateOptions& options, Reader reader) {
+  const std::size_t unreached = std::visit(
+      [](const auto& f) {
+        return static_cast<std::size_t>(std::count_if(f.distance.begin(), f.distance.end(),
+                                                      [](auto d) { return !std::isfinite(d); }));
+      },
+      field.data);
+  if (unreached == 0) return {};
+  return {unreached_remark(unreached, why_unreached(domain, reader), is_bounded(options), reader)};
+}
+
+std::vector<Remark> remarks(const AnyDomain& domain, const AnyField& field,
+                            const SourceList& sources, const PropagateOptions& options,
+                            Reader reader) {
+  std::vector<Remark> all = domain_remarks(domain, reader);
+  for (auto& some : {field_remarks(domain, field, sources, reader),
+                     reach_remarks(domain, field, options, reader)})
+    all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+std::vector<Remark> rows_remarks(const AnyDomain& domain, const PropagateStatistics& sum,
+                                 Accuracy accuracy, std::size_t rows, Reader reader) {
+  FieldWork work = work_of(domain, sum, accuracy);
+  work.fields = rows;
+  return work_remarks(work, reader);
+}
+
+}  // namespace plexway

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <plexway/any_domain.hpp>
+#include <plexway/shape/remarks.hpp>
+
+namespace plexway {
+
+/// How far a field got.
+struct FieldReach {
+  std::size_t reached = 0;        ///< vertices, sources included
+  std::size_t beside_source = 0;  ///< reached, and not a source
+  double max_distance = 0;        ///< -inf where nothing is reached
+  std::size_t farthest = 0;       ///< a vertex at that distance
+  std::vector<std::size_t> from;  ///< vertices that are sources, and reached; ascending
+};
+[[nodiscard]] FieldReach reach_of(std::span<const double> distance, const SourceList& sources);
+
+/// Of these vertices, from which nothing else is reached, the first that is in no simplex, and the
+/// nearest that is in one; empty where all are in one.
+[[nodiscard]] std::string apart_sentence(const AnyShape& domain, std::span<const std::size_t> from);
+
+/// The work of fields, whoever has their domain.
+struct FieldWork {
+  const PropagateStatistics& statistics;  ///< a sum over the fields
+  Accuracy accuracy;
+  bool complete = true;
+  bool has_windows = false;         ///< may the domain be solved by them?
+  bool has_triangulations = false;  ///< may it be solved on others?
+  std::size_t vertices = 0;
+  std::size_t fields = 1;
+  /// The longest distance in mean edges, of a surface in single precision; else 0.
+  double edges = 0;
+  bool in_space = true;  ///< have the vertices positions?
+};
+/// What it says of their distances.
+[[nodiscard]] std::vector<Remark> work_remarks(const FieldWork& work, Reader reader);
+
+/// So many vertices are not reached; `why` may be empty. `bounded`: a radius or a number of
+/// expansions was given.
+[[nodiscard]] Remark unreached_remark(std::size_t count, std::string why, bool bounded,
+                                      Reader reader);
+/// Was one?
+[[nodiscard]] bool is_bounded(const PropagateOptions& options);
+
+}  // namespace plexway

@@ -1,0 +1,133 @@
+#include "shape/warnings/walls.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "complexes/common/box_tree.hpp"
+#include "complexes/common/closest_point.hpp"
+#include "shape/solid_boundary.hpp"
+
+namespace plexway {
+namespace {
+
+using Point = std::array<double, 3>;
+
+// Squared, 0 inside.
+double squared_distance(const Box<3>& box, const Point& point) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double off = std::max({box.low[k] - point[k], point[k] - box.high[k], 0.});
+    sum += off * off;
+  }
+  return sum;
+}
+
+// The boundary's triangles in a unit in which squares neither overflow nor underflow.
+class Walls {
+ public:
+  explicit Walls(const io::Tets& solid) : boundary_(boundary_of(solid)) {
+    Box<3> all = Box<3>::empty();
+    for (const Point& p : boundary_.positions) all.add(p);
+    for (std::size_t k = 0; k < 3; ++k) {
+      centre_[k] = all.low[k] / 2 + all.high[k] / 2;
+      unit_ = std::max(unit_, all.high[k] / 2 - all.low[k] / 2);
+    }
+    if (unit_ == 0) unit_ = 1;
+    for (Point& p : boundary_.positions) p = placed(p);
+    std::vector<Box<3>> boxes;
+    boxes.reserve(boundary_.triangles.size());
+    for (const auto& triangle : boundary_.triangles) {
+      boxes.push_back(Box<3>::empty());
+      for (const Index v : triangle) boxes.back().add(boundary_.positions[v]);
+    }
+    tree_ = BoxTree<3>(boxes);
+  }
+
+  [[nodiscard]] bool empty() const { return boundary_.triangles.empty(); }
+
+  // Neighbours in the list mostly have the same nearest triangle: it is looked at first.
+  [[nodiscard]] double distance(const Point& from) {
+    const Point point = placed(from);
+    double best = squared_to(nearest_, point);
+    tree_.search([&](const Box<3>& box) { return squared_distance(box, point) < best; },
+                 [&](Index triangle) {
+                   const double found = squared_to(triangle, point);
+                   if (!(found < best)) return;
+                   best = found;
+                   nearest_ = triangle;
+                 });
+    return std::sqrt(best) * unit_;
+  }
+
+ private:
+  [[nodiscard]] Point placed(const Point& p) const {
+    Point at;
+    for (std::size_t k = 0; k < 3; ++k) at[k] = (p[k] - centre_[k]) / unit_;
+    return at;
+  }
+  [[nodiscard]] double squared_to(Index triangle, const Point& point) const {
+    std::array<Point, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        corners[i][k] = boundary_.positions[boundary_.triangles[triangle][i]][k] - point[k];
+    return plexway::squared_distance(corners);
+  }
+
+  io::Triangles boundary_;
+  Point centre_{};
+  double unit_ = 0;
+  BoxTree<3> tree_;
+  Index nearest_ = 0;
+};
+
+// Which vertices the boundary has, and which the solid.
+std::vector<char> kinds_of(const io::Tets& solid) {
+  std::vector<char> used(solid.positions.size(), 0);
+  for (const auto& tet : solid.tets)
+    for (const Index v : tet) used[v] = 1;
+  std::vector<std::array<Index, 3>> faces;
+  faces.reserve(4 * solid.tets.size());
+  for (const auto& tet : solid.tets)
+    for (std::size_t skip = 0; skip < 4; ++skip) {
+      std::array<Index, 3> face = {tet[(skip + 1) % 4], tet[(skip + 2) % 4], tet[(skip + 3) % 4]};
+      std::sort(face.begin(), face.end());
+      faces.push_back(face);
+    }
+  std::sort(faces.begin(), faces.end());
+  for (std::size_t f = 0; f < faces.size();) {
+    std::size_t end = f + 1;
+    while (end < faces.size() && faces[end] == faces[f]) ++end;
+    if (end == f + 1)
+      for (const Index v : faces[f]) used[v] = 2;
+    f = end;
+  }
+  return used;
+}
+
+}  // namespace
+
+VertexSource walls_of(const io::Tets& solid) {
+  VertexSource source;
+  Walls walls(solid);
+  if (walls.empty()) return source;
+  const std::vector<char> kind = kinds_of(solid);
+  for (Index v = 0; v < kind.size(); ++v) {
+    if (kind[v] == 0) continue;
+    source.vertices.push_back(v);
+    source.offsets.push_back(kind[v] == 2 ? 0 : walls.distance(solid.positions[v]));
+  }
+  return source;
+}
+
+VertexSource rim_of(const VertexSource& walls) {
+  VertexSource rim{.vertices = {}, .offset = walls.offset};
+  for (std::size_t i = 0; i < walls.vertices.size(); ++i)
+    if (walls.offsets.empty() || walls.offsets[i] == 0) rim.vertices.push_back(walls.vertices[i]);
+  return rim;
+}
+
+}  // namespace plexway

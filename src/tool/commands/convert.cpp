@@ -1,0 +1,76 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "shape/convert.hpp"
+#include "shape/info/report.hpp"
+#include "tool/commands/commands.hpp"
+#include "tool/options/input.hpp"
+#include "tool/report/console.hpp"
+#include "tool/report/distance_output.hpp"
+#include "tool/report/progress.hpp"
+
+namespace plexway::cli {
+namespace {
+
+struct ConvertCommand : InputCommand {
+  std::string out;
+};
+
+void run_convert(const ConvertCommand& command) {
+  check_output_name(command.out, command.input, conversion_extensions(), "output");
+  ProgressLine progress(command.quiet);
+  const Converted conversion = convert(command.input, command.out, read_options(command, progress));
+  progress.clear();
+  Json json;
+  json["input"] = command.input;
+  json["out"] = command.out;
+  json["kind"] = conversion.kind;
+  json["vertices"] = conversion.vertices;
+  json["simplices"] = conversion.simplices;
+  if (!conversion.note.empty()) json["voxels"] = conversion.note;
+  Table table;
+  table.add("input", command.input);
+  table.add(conversion.kind,
+            counted(conversion.vertices, "vertices") +
+                (conversion.simplex_name.empty()
+                     ? std::string()
+                     : ", " + counted(conversion.simplices, conversion.simplex_name)));
+  if (!conversion.note.empty()) table.add("voxels", conversion.note);
+  json["seconds"] = {{"load", conversion.load_seconds}, {"write", conversion.write_seconds}};
+  table.add("time", "load " + short_time(conversion.load_seconds) + ", write " +
+                        short_time(conversion.write_seconds));
+  add_written(table, {command.out});
+  print_report(json, table, command.json, command.quiet, {command.out});
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& tool, Action& action) {
+  auto command = std::make_shared<ConvertCommand>();
+  CLI::App& app = *tool.add_subcommand(
+      "convert", "Writes a surface, solid, level set, wireframe or cloud in another format");
+  add_input(app, *command);
+  app.add_option("OUT", command->out,
+                 "by extension: a surface .obj .off .ply .stl .glb .gltf .vtu .vtk, a solid\n"
+                 ".node .ele .mesh .msh .vtu .vtk, a level set .vdb, a wireframe .obj .edges\n"
+                 ".vtu .vtk .glb, a cloud .xyz .ply. A surface is filled where only solids fit,\n"
+                 "and of a solid the boundary is taken where only surfaces fit")
+      ->type_name("OUT")
+      ->required();
+  app.add_option("--as", command->as, as_help)->type_name("KIND");
+  add_report_options(app, *command);
+  add_fill_options(app, command->fill);
+  app.footer(
+      "Examples:\n"
+      "  plexway convert scan.stl scan.glb\n"
+      "  plexway convert broken.stl clean.ply --repair --voxel 0.01\n"
+      "  plexway convert organ.off organ.vdb --voxel 0.02\n"
+      "  plexway convert fluid.vdb fluid.obj --grid surface\n"
+      "  plexway convert fluid.vdb fluid.vtu\n"
+      "  plexway convert organ.off organ.mesh --max-volume 1e-3\n"
+      "  plexway convert organ.vtu organ.stl");
+  app.callback([command, &action] { action = [command] { run_convert(*command); }; });
+}
+
+}  // namespace plexway::cli

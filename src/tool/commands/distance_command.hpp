@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/field/field_part.hpp"
+#include "tool/among.hpp"
+#include "tool/options/input.hpp"
+#include "tool/options/isoline_options.hpp"
+#include "tool/options/mask_option.hpp"
+#include "tool/options/metric_options.hpp"
+#include "tool/options/picture_options.hpp"
+#include "tool/options/solve_options.hpp"
+#include "tool/options/triangulation_option.hpp"
+
+namespace plexway::cli {
+
+/// 'plexway distance', as typed.
+struct DistanceCommand : InputCommand {
+  std::vector<std::string> sources;
+  std::string out;
+  IsolineOptions isolines;
+  SolveOptions solve;
+  PictureArguments picture;
+  MaskArgument mask;
+  MetricArgument metric;
+  TriangulationArgument triangulation;
+  bool in_parts = false;         ///< does nobody read the whole?
+  const Among* among = nullptr;  ///< who shares the pieces; null: nobody
+
+  /// Does each process write a part?
+  [[nodiscard]] bool writes_parts() const { return among != nullptr && io::is_partitioned(out); }
+  /// Is it this process that writes and reports?
+  [[nodiscard]] bool leads() const { return among == nullptr || among->ranks.leads(); }
+};
+
+/// With --in-parts: a surface that no process has as a whole.
+void run_distance_in_parts(DistanceCommand command);
+
+}  // namespace plexway::cli

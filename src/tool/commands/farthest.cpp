@@ -1,0 +1,105 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <plexway/error.hpp>
+#include <plexway/sampling/farthest_points.hpp>
+
+#include "shape/arguments/point_argument.hpp"
+#include "shape/point_file.hpp"
+#include "tool/commands/commands.hpp"
+#include "tool/commands/sampling_command.hpp"
+#include "tool/report/distance_output.hpp"
+#include "tool/report/progress.hpp"
+
+namespace plexway::cli {
+namespace {
+
+struct FarthestCommand : SamplingCommand {
+  std::size_t count = 0;
+  double radius = 0;
+  std::vector<std::string> sources;
+};
+
+void run_farthest(const FarthestCommand& command) {
+  const Precision precision = precision_of(command);
+  if (command.count == 0 && !(command.radius > 0))
+    throw UsageError("give --count, --radius or both, > 0");
+  if (!(command.radius >= 0)) throw UsageError("--radius must be >= 0");
+  check_output_name(command.out, command.input, point_file_extensions());
+  check_picture(command.picture, command.input);
+  check_outputs_differ({command.out, command.picture.file, command.picture.html});
+  const auto arguments = parse_sources(
+      command.sources.empty() ? std::vector<std::string>{"vertex:0"} : command.sources);
+  ProgressLine progress(command.quiet);
+  Phases phases;
+  const Domain domain = load_domain(command, progress);
+  phases.end("load");
+  const auto start = locate_sources(domain, arguments);
+  FarthestOptions options;
+  options.count = command.count == 0 ? std::numeric_limits<std::size_t>::max() : command.count;
+  options.radius = command.radius;
+  options.progress = [&](double share) {
+    progress.done(share);
+    return true;
+  };
+  progress.phase("looking for the farthest points");
+  FarthestPoints found;
+  std::vector<double> nearest;  // to the points found, where a picture shows it
+  Notes notes = with_sampled(domain, precision, [&](const auto& complex) {
+    phases.end("build");
+    found = farthest_points(Serial{}, complex, start, options);
+    phases.end("search");
+    if (!command.picture.wanted()) return;
+    const auto field = solve(Serial{}, complex, std::span<const PointSource>(found.points));
+    nearest.assign(field.distance.begin(), field.distance.end());
+  });
+  if (!command.out.empty())
+    write_points(command.out, domain, found.points, "distance", found.distance);
+  if (command.picture.wanted()) {
+    SceneContent content;
+    content.distance = nearest;
+    for (const PointSource& point : found.points) content.dots.push_back(domain.position(point));
+    write_picture(command.picture, domain, content, command.quiet);
+  }
+  phases.end("write");
+  progress.clear();
+
+  PointSummary summary(command, domain, found.points.size());
+  summary.json["covering"] = json_number(found.covering);
+  summary.table.add("covering", "no vertex is farther than " + short_number(found.covering));
+  report_picture(command.picture, domain, summary.json, summary.table);
+  add_parts_without(notes, domain, found.points, "points");
+  summary.finish(command, found.statistics, phases, notes);
+}
+
+}  // namespace
+
+void add_farthest_command(CLI::App& tool, Action& action) {
+  auto command = std::make_shared<FarthestCommand>();
+  CLI::App& app = *tool.add_subcommand(
+      "farthest", "Vertices one after the other, each the farthest from those before");
+  add_sampling_options(app, *command, "write the points and how far each was: .csv .npy .obj .ply");
+  add_verbose_option(app, *command);
+  add_picture_options(app, command->picture);
+  app.add_option("--count,-n", command->count, "so many points, the first ones included")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
+  app.add_option("--radius,-r", command->radius, "or stop when no vertex is farther than this")
+      ->type_name("R");
+  app.add_option("--source,-s", command->sources,
+                 "where to start: vertex:ID or point:X,Y,Z (default vertex:0); repeatable")
+      ->type_name("WHERE")
+      ->allow_extra_args(false);
+  app.footer(
+      "Examples:\n"
+      "  plexway farthest knot.ply --count 100 --out landmarks.ply\n"
+      "  plexway farthest knot.ply --count 50 --picture landmarks.png\n"
+      "  plexway farthest elbow.mesh --radius 0.5 --source vertex:3 --out cover.csv");
+  app.callback([command, &action] { action = [command] { run_farthest(*command); }; });
+}
+
+}  // namespace plexway::cli

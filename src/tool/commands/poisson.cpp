@@ -1,0 +1,156 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <plexway/error.hpp>
+#include <plexway/sampling/poisson_disk.hpp>
+
+#include "io/number_rows.hpp"
+#include "shape/point_file.hpp"
+#include "tool/commands/commands.hpp"
+#include "tool/commands/sampling_command.hpp"
+#include "tool/report/distance_output.hpp"
+#include "tool/report/progress.hpp"
+
+namespace plexway::cli {
+namespace {
+
+struct PoissonCommand : SamplingCommand {
+  std::optional<double> radius;
+  std::optional<std::size_t> count;
+  std::uint64_t seed = 1;
+  std::string order = "uniform", spacing;
+  bool vertices = false;
+};
+
+// One number a line.
+std::vector<double> read_spacing(const std::string& file) {
+  std::vector<double> spacing;
+  for (const io::NumberRow& row :
+       io::read_number_rows(file, 1, 1, "a number > 0 a line, for each vertex")) {
+    if (!(row.numbers[0] > 0))
+      throw InputError(file + ":" + std::to_string(row.line) + ": expected a number > 0");
+    spacing.push_back(row.numbers[0]);
+  }
+  return spacing;
+}
+
+void run_poisson(const PoissonCommand& command) {
+  const Precision precision = precision_of(command);
+  if (command.radius.has_value() == command.count.has_value())
+    throw UsageError("give one of --radius and --count");
+  if (command.radius && (!(*command.radius > 0) || std::isinf(*command.radius)))
+    throw UsageError("--radius must be a number > 0");
+  if (command.count && *command.count == 0) throw UsageError("--count must be > 0");
+  if (command.order != "uniform" && command.order != "simplices")
+    throw UsageError("--order '" + command.order + "': choose one of uniform, simplices");
+  check_output_name(command.out, command.input, point_file_extensions());
+  check_picture(command.picture, command.input);
+  check_output_place(command.out, {&command.spacing, 1}, "--out");
+  check_outputs_differ({command.out, command.picture.file, command.picture.html});
+  const std::vector<double> spacing =
+      command.spacing.empty() ? std::vector<double>{} : read_spacing(command.spacing);
+
+  ProgressLine progress(command.quiet);
+  Phases phases;
+  const Domain domain = load_domain(command, progress);
+  phases.end("load");
+  if (!spacing.empty() && spacing.size() != domain.vertices())
+    throw InputError(command.spacing + ": " + counted(spacing.size(), "numbers") + " for " +
+                     counted(domain.vertices(), "vertices"));
+  PoissonOptions options;
+  options.radius = command.radius.value_or(0);
+  options.count = command.count.value_or(0);
+  options.seed = command.seed;
+  options.order = command.order == "uniform" ? DartOrder::uniform : DartOrder::simplices;
+  options.at_vertices = command.vertices;
+  options.spacing = spacing;
+  options.progress = [&](double share) {
+    progress.done(share);
+    return true;
+  };
+  progress.phase("throwing darts");
+  PoissonDisks disks;
+  Notes notes = with_sampled(domain, precision, [&](const auto& complex) {
+    phases.end("build");
+    disks = poisson_disks(Serial{}, complex, options);
+    phases.end("throw");
+  });
+  if (!command.out.empty()) write_points(command.out, domain, disks.darts);
+  if (command.picture.wanted()) {
+    SceneContent content;
+    content.look_inside = true;
+    for (const PointSource& dart : disks.darts) content.dots.push_back(domain.position(dart));
+    write_picture(command.picture, domain, content, command.quiet);
+  }
+  phases.end("write");
+  progress.clear();
+
+  Json json;
+  json["input"] = command.input;
+  json["kind"] = domain.kind_name();
+  json["darts"] = disks.darts.size();
+  json["radius"] = disks.radius;
+  json["maximal"] = disks.maximal;
+  json["thrown"] = disks.thrown;
+  json["taken_back"] = disks.taken_back;
+  json["expansions"] = disks.statistics.expansions;
+  Table table;
+  table.add("input", command.input);
+  table.add("darts", counted(disks.darts.size(), "darts") + ", radius " +
+                         short_number(disks.radius) +
+                         (disks.maximal ? "" : "; a few more would find room"));
+  if (command.verbose)
+    table.add("work", counted(disks.thrown, "darts") + " thrown, " +
+                          counted(disks.statistics.expansions, "expansions"));
+  phases.tell(json, table);
+  report_picture(command.picture, domain, json, table);
+  add_written(table, {command.out, command.picture.file, command.picture.html});
+  add_parts_without(notes, domain, disks.darts, "darts");
+  notes.tell(json);
+  print_report(json, table, command.json, command.quiet,
+               {command.out, command.picture.file, command.picture.html});
+  notes.say(command.quiet);
+}
+
+}  // namespace
+
+void add_poisson_command(CLI::App& tool, Action& action) {
+  auto command = std::make_shared<PoissonCommand>();
+  CLI::App& app = *tool.add_subcommand(
+      "poisson", "Points no nearer to each other than a radius, and none missing (Poisson disks)");
+  add_sampling_options(app, *command, "write the points: .csv .npy .obj .ply by extension");
+  add_verbose_option(app, *command);
+  add_picture_options(app, command->picture);
+  app.add_option("--radius,-r", command->radius,
+                 "no two points are nearer, no point of the domain is farther")
+      ->type_name("R");
+  app.add_option("--count,-n", command->count, "or so many points; the radius is searched for")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
+  app.add_option("--seed", command->seed, "another number, another sample (default 1)")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("S");
+  app.add_option("--order", command->order,
+                 "where darts go: uniform (default), or simplices: one after the other in\n"
+                 "random order, denser where they are small")
+      ->type_name("NAME");
+  app.add_option("--spacing", command->spacing,
+                 "a number a line for each vertex: the radius there is R times that")
+      ->type_name("FILE");
+  app.add_flag("--vertices", command->vertices, "only vertices are chosen, and only they covered");
+  app.footer(
+      "Examples:\n"
+      "  plexway poisson knot.ply --radius 0.1 --out darts.ply\n"
+      "  plexway poisson knot.ply --count 1000 --seed 7 --out darts.csv --json\n"
+      "  plexway poisson knot.ply --count 1000 --picture darts.png --view top\n"
+      "  plexway poisson elbow.mesh --radius 0.2 --out darts.obj");
+  app.callback([command, &action] { action = [command] { run_poisson(*command); }; });
+}
+
+}  // namespace plexway::cli

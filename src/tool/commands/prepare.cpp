@@ -1,0 +1,116 @@
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <plexway/any_domain.hpp>
+#include <plexway/error.hpp>
+
+#include "shape/info/report.hpp"
+#include "tool/commands/commands.hpp"
+#include "tool/options/input.hpp"
+#include "tool/options/solve_options.hpp"
+#include "tool/options/triangulation_option.hpp"
+#include "tool/report/console.hpp"
+#include "tool/report/distance_output.hpp"
+#include "tool/report/progress.hpp"
+
+namespace plexway::cli {
+namespace {
+
+struct PrepareCommand : InputCommand {
+  std::string out;
+  std::string precision = "float";
+  TriangulationArgument triangulation;
+  int threads = 0;
+};
+
+Json prepare_json(const PrepareCommand& command, const AnyDomain& domain, std::uintmax_t bytes) {
+  Json json;
+  json["input"] = command.input;
+  json["out"] = command.out;
+  json["kind"] = domain.shape().kind_name();
+  json["vertices"] = domain.vertices();
+  json["simplices"] = domain.simplices();
+  json["precision"] = command.precision;
+  if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(domain.triangulation());
+  json["bytes"] = bytes;
+  json["seconds"] = {{"load", domain.shape().load_seconds()}, {"build", domain.build_seconds()}};
+  return json;
+}
+
+std::string prepare_text(const PrepareCommand& command, const AnyDomain& domain,
+                         std::uintmax_t bytes) {
+  Table table;
+  table.add("input", command.input);
+  table.add(std::string(kind_noun(domain.kind())),
+            counted(domain.vertices(), "vertices") + ", " +
+                counted(domain.simplices(), domain.shape().simplex_name()) + ", " +
+                command.precision);
+  if (domain.kind() == DomainKind::surface)
+    table.add("triangles", describe(domain.triangulation()));
+  table.add("time", "load " + short_time(domain.shape().load_seconds()) + ", build " +
+                        short_time(domain.build_seconds()));
+  table.add("written", command.out + " (" + counted(bytes, "bytes") + ")");
+  return table.text();
+}
+
+void run_prepare(const PrepareCommand& command) {
+  constexpr std::array<std::string_view, 1> extensions = {".plexway"};
+  check_output_name(command.out, command.input, extensions);
+  SolveOptions precision;
+  precision.precision = command.precision;
+  BuildOptions options{.precision = precision_of(precision),
+                       .triangulation = triangulation_of(command.triangulation),
+                       .threads = command.threads};
+  ProgressLine progress(command.quiet);
+  const Domain shape = load_domain(command, progress);
+  check_triangulation(options.triangulation, shape);
+  progress.phase("building");
+  options.progress = progress.share_callback();
+  const AnyDomain domain(shape, options);
+  progress.phase("writing " + command.out);
+  domain.keep(command.out);
+  progress.clear();
+  std::error_code unknown;  // a pipe has no size
+  std::uintmax_t bytes = std::filesystem::file_size(command.out, unknown);
+  if (unknown) bytes = 0;
+  if (command.json)
+    write_output(json_text(prepare_json(command, domain, bytes)));
+  else if (!command.quiet)
+    write_output(prepare_text(command, domain, bytes));
+  flush_output();
+}
+
+}  // namespace
+
+void add_prepare_command(CLI::App& tool, Action& action) {
+  auto command = std::make_shared<PrepareCommand>();
+  CLI::App& app = *tool.add_subcommand(
+      "prepare", "Builds a domain once and keeps it in a file that opens at once");
+  add_input(app, *command);
+  app.add_option("--out,-o", command->out,
+                 "write NAME.plexway, an INPUT for every command: for this version of plexway and\n"
+                 "machines of this byte order. A command that asks for another precision or\n"
+                 "triangulation than what was prepared builds anew, from the file alone")
+      ->required()
+      ->type_name("FILE");
+  app.add_option("--precision", command->precision, "float (default) or double")->type_name("NAME");
+  add_triangulation_option(app, command->triangulation);
+  app.add_option("--threads", command->threads, "that build it (default: all cores)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  add_input_options(app, *command);
+  app.footer(
+      "Examples:\n"
+      "  plexway prepare scan.ply --out scan.plexway\n"
+      "  plexway distance scan.plexway --source vertex:0 --out distance.ply\n"
+      "  plexway prepare organ.off --as solid --max-volume 1e-3 --out organ.plexway");
+  app.callback([command, &action] { action = [command] { run_prepare(*command); }; });
+}
+
+}  // namespace plexway::cli

@@ -1,0 +1,58 @@
+#include "tool/commands/sampling_command.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "shape/parts.hpp"
+#include "tool/report/distance_output.hpp"
+
+namespace plexway::cli {
+
+void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* out_help) {
+  add_input(app, command, "a surface, a solid or a cloud, as for 'plexway distance'");
+  add_output(app, "--out,-o", command.out, std::string(out_help) + output_help, "csv");
+  app.add_option("--precision", command.precision, "float (default) or double")
+      ->each([&command](const std::string&) { command.precision_given = true; })
+      ->type_name("NAME");
+  add_input_options(app, command);
+}
+
+Precision precision_of(const SamplingCommand& command) {
+  SolveOptions options;
+  options.precision = command.precision;
+  options.precision_given = command.precision_given;
+  options.accuracy = command.accuracy;
+  return precision_of(options);
+}
+
+void add_parts_without(Notes& notes, const Domain& domain, std::span<const PointSource> points,
+                       std::string_view plural) {
+  const Parts left = parts_without(domain, points);
+  if (left.count == 0) return;
+  notes.add("no " + singular(plural) + " in " + counted(left.count, "parts") + " of the " +
+            std::string(kind_noun(domain.kind())) + " (" + counted(left.vertices, "vertices") +
+            "): there are more parts than " + std::string(plural) +
+            ", or they went to larger ones; what lies there belongs to none");
+}
+
+PointSummary::PointSummary(const SamplingCommand& command, const Domain& domain,
+                           std::size_t points) {
+  json["input"] = command.input;
+  json["kind"] = domain.kind_name();
+  json["points"] = points;
+  table.add("input", command.input);
+  table.add("points", counted(points, "points"));
+}
+
+void PointSummary::finish(const SamplingCommand& command, const PropagateStatistics& work,
+                          const Phases& phases, const Notes& notes) {
+  json["expansions"] = work.expansions;
+  if (command.verbose) table.add("work", counted(work.expansions, "expansions"));
+  phases.tell(json, table);
+  add_written(table, {command.out, command.picture.file, command.picture.html});
+  notes.tell(json);
+  print_report(json, table, command.json, command.quiet,
+               {command.out, command.picture.file, command.picture.html});
+  notes.say(command.quiet);
+}
+
+}  // namespace plexway::cli

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include <plexway/error.hpp>
+#include <plexway/solve/distance_field.hpp>
+
+#include <plexway/shape/complex.hpp>
+#include "shape/info/report.hpp"
+#include "tool/options/fill_options.hpp"
+#include "tool/options/input.hpp"
+#include "tool/options/picture_options.hpp"
+#include "tool/options/solve_options.hpp"
+#include "tool/report/notes.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace plexway::cli {
+
+/// What the commands that choose points have in common, as typed.
+struct SamplingCommand : InputCommand {
+  std::string out;
+  std::string precision = "float";
+  bool precision_given = false;
+  std::string accuracy;  ///< where the command has the option
+  PictureArguments picture;
+};
+
+inline constexpr const char* output_help = "; - for CSV on standard output";
+
+/// Adds INPUT, --out (which it describes), --as and so on.
+void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* out_help);
+
+/// Throws UsageError where the precision does not exist.
+Precision precision_of(const SamplingCommand& command);
+
+/// Calls `use(complex)` on the domain's own triangles, as plexway::with_sampled. Returns what is to
+/// be told of it.
+template <class Use>
+Notes with_sampled(const Domain& domain, Precision precision, const Use& use) {
+  support(Purpose::samples, domain.kind()).require();
+  const AnyDomain built(domain, {.precision = precision, .triangulation = Triangulation::input});
+  plexway::with_sampled(built, use);
+  Notes notes;
+  notes.add(domain_remarks(built, Reader::tool));
+  return notes;
+}
+
+/// A note about the parts of the domain in which none of the points lies, if there are any.
+void add_parts_without(Notes& notes, const Domain& domain, std::span<const PointSource> points,
+                       std::string_view plural);
+
+/// A summary of so many points: what the commands say first, and what they say last.
+struct PointSummary {
+  Json json;
+  Table table;
+
+  PointSummary(const SamplingCommand& command, const Domain& domain, std::size_t points);
+  void finish(const SamplingCommand& command, const PropagateStatistics& work, const Phases& phases,
+              const Notes& notes);
+};
+
+}  // namespace plexway::cli

@@ -1,0 +1,3 @@
+#include "tool/app.hpp"
+
+int main(int argc, char** argv) { return plexway::cli::run(argc, argv); }

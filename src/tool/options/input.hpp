@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <plexway/shape/shape.hpp>
+
+#include "tool/options/cloud_options.hpp"
+#include "tool/options/fill_options.hpp"
+#include "tool/report/progress.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace plexway::cli {
+
+/// What a user hands to the tool.
+using Domain = AnyShape;
+
+/// What the commands have in common that read a domain, as typed: how to read it, and what to tell.
+struct InputCommand {
+  std::string input, as;
+  std::vector<std::string> more;  ///< further files than INPUT, where the command takes them
+  std::optional<double> weld;
+  FillArguments fill;
+  CloudPreparation cloud;
+  bool json = false, quiet = false, strict = false, verbose = false;
+};
+
+/// What INPUT may be, for the help of the commands.
+[[nodiscard]] std::string input_help();
+inline constexpr const char* as_help =
+    "what to take it as: surface, solid (fills a surface with tetrahedra),\n"
+    "wireframe (the edges alone), cloud (the vertices of a surface alone) or mixed (all\n"
+    "lines, triangles and tetrahedra of a .msh, .vtu or .vtk); default: what the file holds";
+inline constexpr const char* usual_quiet = "no summary, notes or progress; errors stay";
+
+///@{
+/// Adds INPUT; INPUT, MORE and --weld; --json and --quiet; or these and all that says how to read a
+/// domain: --as, and groups about filling and clouds; --verbose, of commands that solve.
+void add_input(CLI::App& app, InputCommand& command, const std::string& help = input_help());
+void add_inputs(CLI::App& app, InputCommand& command);
+void add_report_options(CLI::App& app, InputCommand& command, const char* quiet = usual_quiet);
+void add_input_options(CLI::App& app, InputCommand& command, const char* quiet = usual_quiet);
+void add_verbose_option(CLI::App& app, InputCommand& command);
+///@}
+
+/// What the library tells while it works, on the line; `progress` must stay.
+[[nodiscard]] ReadProgress read_progress(ProgressLine& progress);
+
+/// How INPUT is to be read. Throws UsageError for a kind that does not exist.
+[[nodiscard]] ReadOptions read_options(const InputCommand& command, ProgressLine& progress);
+
+/// Reads INPUT as AnyShape::read does. Throws UsageError, too, for a kind that does not exist.
+Domain load_domain(const InputCommand& command, ProgressLine& progress);
+
+}  // namespace plexway::cli

@@ -1,0 +1,283 @@
+#include "tool/options/picture_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <string_view>
+
+#include <plexway/error.hpp>
+#include <plexway/io/page.hpp>
+#include <plexway/shape/support.hpp>
+
+#ifdef PLEXWAY_HAS_RENDER
+#include <plexway/render/picture.hpp>
+#endif
+
+#include "io/extension.hpp"
+#include "io/field/colour_map.hpp"
+#include "shape/arguments/require.hpp"
+#include "shape/shape_page.hpp"
+#include "shape/up_axis.hpp"
+#include "tool/report/console.hpp"
+#include "tool/report/distance_output.hpp"
+
+namespace plexway::cli {
+namespace {
+
+constexpr std::array<std::string_view, 2> picture_extensions = {".png", ".svg"};
+constexpr std::array<std::string_view, 2> page_extensions = {".html", ".htm"};
+
+// Numbers between commas.
+std::vector<double> numbers(const std::string& option, const std::string& text,
+                            const std::string& expected) {
+  std::vector<double> found;
+  std::size_t at = 0;
+  while (true) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const std::string word = text.substr(at, end - at);
+    char* rest = nullptr;
+    const double number = std::strtod(word.c_str(), &rest);
+    if (word.empty() || *rest != '\0' || !std::isfinite(number))
+      throw UsageError(option + " '" + text + "': expected " + expected);
+    found.push_back(number);
+    if (end == text.size()) return found;
+    at = end + 1;
+  }
+}
+
+std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t count,
+                            const std::string& expected) {
+  auto found = numbers(option, text, expected);
+  if (found.size() != count) throw UsageError(option + " '" + text + "': expected " + expected);
+  return found;
+}
+
+bool options_given(const PictureArguments& a) {
+  for (const std::string* text :
+       {&a.view, &a.size, &a.range, &a.map, &a.clip, &a.isosurfaces, &a.up, &a.title, &a.colour})
+    if (!text->empty()) return true;
+  return a.isolines || a.transparent || a.orthographic || a.small;
+}
+
+std::array<double, 2> range_of(const std::string& text) {
+  const auto ends = numbers("--range", text, 2, "LO,HI");
+  if (!(ends[0] < ends[1])) throw UsageError("--range: LO must be less than HI");
+  return {ends[0], ends[1]};
+}
+
+void check_up(const std::string& text) {
+  if (text.empty()) return;
+  if (text != "x" && text != "y" && text != "z")
+    throw UsageError("--up '" + text + "': choose one of x, y, z");
+}
+
+io::Page page_of(const PictureArguments& arguments) {
+  io::Page page;
+  check_up(arguments.up);
+  if (!arguments.range.empty()) page.range = range_of(arguments.range);
+  if (!arguments.map.empty()) {
+    const io::ColourMap exists(arguments.map);
+    page.map = arguments.map;
+  }
+  if (!arguments.title.empty()) page.title = arguments.title;
+  return page;
+}
+
+void write_page(const PictureArguments& arguments, const Domain& domain,
+                const SceneContent& content) {
+  if (arguments.html.empty()) return;
+  io::Page page = page_of(arguments);
+  page.up = arguments.up_of(domain);
+  fill_page(page, domain, content);
+  io::write_page(arguments.html, page);
+}
+
+#ifdef PLEXWAY_HAS_RENDER
+
+render::View view_of(const std::string& text) {
+  struct Named {
+    std::string_view name;
+    render::View view;
+  };
+  constexpr std::array<Named, 7> named = {{{"front", {0, 0}},
+                                           {"right", {90, 0}},
+                                           {"back", {180, 0}},
+                                           {"left", {270, 0}},
+                                           {"top", {0, 90}},
+                                           {"bottom", {0, -90}},
+                                           {"iso", {45, 35.264389682754654}}}};
+  for (const Named& n : named)
+    if (n.name == text) return n.view;
+  const auto angles =
+      numbers("--view", text, 2, "front, back, left, right, top, bottom, iso, or AZ,EL in degrees");
+  if (std::abs(angles[1]) > 90) throw UsageError("--view: EL is an angle from -90 to 90 degrees");
+  return {angles[0], angles[1]};
+}
+
+render::Clip clip_of(const std::string& text) {
+  render::Clip clip;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (text == std::string(1, static_cast<char>('x' + k))) {
+      clip.normal = {0, 0, 0};
+      clip.normal[k] = 1;
+      return clip;
+    }
+  const auto plane = numbers("--clip", text, 4, "x, y, z or a plane NX,NY,NZ,D");
+  clip.normal = {plane[0], plane[1], plane[2]};
+  if (clip.normal == render::Point{}) throw UsageError("--clip: NX,NY,NZ must not be 0,0,0");
+  clip.offset = plane[3];
+  return clip;
+}
+
+render::PictureOptions options_of(const PictureArguments& arguments) {
+  render::PictureOptions options;
+  if (!arguments.view.empty()) options.view = view_of(arguments.view);
+  if (!arguments.size.empty()) {
+    std::size_t rest = 0;
+    const std::string& size = arguments.size;
+    const std::size_t x = size.find('x');
+    const bool digits = size.find_first_not_of("0123456789x") == size.npos && x != size.npos &&
+                        x > 0 && x < 6 && size.size() - x > 1 && size.size() - x < 7;
+    if (digits) {
+      options.width = std::stoul(size.substr(0, x));
+      options.height = std::stoul(size.substr(x + 1), &rest);
+    }
+    if (!digits || rest != size.size() - x - 1 || options.width == 0 || options.height == 0 ||
+        options.width > 16384 || options.height > 16384)
+      throw UsageError("--size '" + size + "': expected WIDTHxHEIGHT in pixels, such as 800x600");
+  }
+  if (!arguments.range.empty()) options.range = range_of(arguments.range);
+  options.isolines = arguments.isolines;
+  if (!arguments.map.empty()) {
+    const io::ColourMap exists(arguments.map);
+    options.map = arguments.map;
+  }
+  if (!arguments.clip.empty()) options.clip = clip_of(arguments.clip);
+  if (!arguments.isosurfaces.empty())
+    options.isosurfaces = numbers("--isosurfaces", arguments.isosurfaces, "V,V,...");
+  check_up(arguments.up);
+  if (!arguments.title.empty()) options.title = arguments.title;
+  options.transparent = arguments.transparent;
+  options.orthographic = arguments.orthographic;
+  return options;
+}
+
+#endif
+
+}  // namespace
+
+void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells) {
+  add_output(
+      app, "--picture", arguments.file,
+      "draw a picture without a display: .png, or .svg, whose lines and text are drawn over\n"
+      "the shaded image; the next options go with it",
+      "png");
+  add_output(app, "--html", arguments.html,
+             "a page to turn in a browser: one file, no network; --up, --range, --map and --title\n"
+             "go with it",
+             "html");
+  app.add_option("--view", arguments.view,
+                 "from where: front, back, left, right, top, bottom, iso, or AZ,EL in\n"
+                 "degrees around the front (default: from above if flat, else 28,24)")
+      ->type_name("VIEW");
+  app.add_option("--up", arguments.up,
+                 "which axis points up: x, y or z (default: y or z, by the shape)")
+      ->type_name("AXIS");
+  app.add_option("--size", arguments.size, "pixels (default 800x600)")->type_name("WxH");
+  app.add_option("--range", arguments.range,
+                 "values at the ends of the colour bar (default: the field's own)")
+      ->type_name("LO,HI");
+  app.add_option("--isolines", arguments.isolines,
+                 "so many lines of equal value, 0 for none (default: at round numbers)")
+      ->check(CLI::Range(0, 10000))
+      ->type_name("N");
+  app.add_option("--map", arguments.map, "colours: viridis (default), magma, cividis")
+      ->type_name("NAME");
+  if (cells)
+    app.add_option("--colour", arguments.colour,
+                   "what colours show: distance (default), or cells: the nearest source")
+        ->type_name("WHAT");
+  app.add_option("--clip", arguments.clip,
+                 "cut open: x, y or z through the middle, the near half goes; or a plane,\n"
+                 "beyond which all goes")
+      ->type_name("x|y|z|NX,NY,NZ,D");
+  app.add_option("--isosurfaces", arguments.isosurfaces,
+                 "of a solid: surfaces of these values inside")
+      ->type_name("V,V,...");
+  app.add_option("--title", arguments.title, "over the colour bar (default 'distance')")
+      ->type_name("TEXT");
+  app.add_flag("--orthographic", arguments.orthographic, "parallel lines stay parallel");
+  app.add_flag("--transparent", arguments.transparent, "no background");
+  app.add_flag("--small", arguments.small, "256 colours, a quarter of the bytes");
+}
+
+char PictureArguments::up_of(const Domain& domain) const {
+  return up.empty() ? probable_up(domain) : up[0];
+}
+
+void report_picture(const PictureArguments& arguments, const Domain& domain, Json& json,
+                    Table& table) {
+  if (!arguments.wanted() || domain.positions().empty()) return;
+  const std::string axis(1, arguments.up_of(domain));
+  json["up"] = axis;
+  table.add("up", axis + (arguments.up.empty() ? ", by the shape; --up says another axis" : ""));
+}
+
+void check_picture(const PictureArguments& arguments, const std::string& input) {
+  if (!arguments.wanted()) {
+    if (options_given(arguments))
+      throw UsageError(
+          "--view, --size, --range, --clip and the like need --picture FILE or --html FILE");
+    return;
+  }
+  check_output_name(arguments.html, input, page_extensions, "--html");
+  if (arguments.file.empty()) {
+    (void)page_of(arguments);
+    return;
+  }
+#ifdef PLEXWAY_HAS_RENDER
+  static_cast<void>(options_of(arguments));
+  if (!arguments.colour.empty() && arguments.colour != "distance" && arguments.colour != "cells")
+    throw UsageError("--colour '" + arguments.colour + "': choose one of distance, cells");
+  check_output_name(arguments.file, input, picture_extensions, "--picture");
+#else
+  static_cast<void>(input);
+  throw NotBuiltError(
+      "--picture: this plexway draws no pictures: rebuild with libpng-dev, libegl-dev and "
+      "libgl-dev "
+      "installed");
+#endif
+}
+
+#ifdef PLEXWAY_HAS_RENDER
+
+void write_picture(const PictureArguments& arguments, const Domain& domain,
+                   const SceneContent& content, bool quiet) {
+  write_page(arguments, domain, content);
+  if (arguments.file.empty()) return;
+  render::PictureOptions options = options_of(arguments);
+  options.up = arguments.up_of(domain);
+  require("--picture: " + domain.file().string(), support(Purpose::pictures, domain));
+  if (!options.isosurfaces.empty())
+    require("--isosurfaces", support(Purpose::isosurfaces, domain.kind()));
+  SceneContent shown = content;
+  shown.look_inside = content.look_inside && !options.clip;
+  const ShapeScene scene(domain, shown);
+  if (scene.is_line() && !quiet)
+    say_note("all points lie in a line: the picture shows the edges, for there is no area");
+  const std::size_t colours = arguments.small ? 256 : 0;
+  if (io::lower_extension(arguments.file) == ".svg")
+    render::write_svg(arguments.file, scene.scene(), options, colours);
+  else
+    render::write_png(arguments.file, render::picture(scene.scene(), options), colours);
+}
+
+#else
+
+void write_picture(const PictureArguments& arguments, const Domain& domain,
+                   const SceneContent& content, bool) {
+  write_page(arguments, domain, content);
+}
+
+#endif
+
+}  // namespace plexway::cli

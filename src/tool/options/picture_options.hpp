@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include <plexway/shape/scene.hpp>
+
+#include "shape/info/report.hpp"
+#include "tool/options/input.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace plexway::cli {
+
+/// --picture and --html, and what goes with them, as typed.
+struct PictureArguments {
+  std::string file, html;
+  std::string view, size, range, map, clip, isosurfaces, up, title;
+  std::optional<std::size_t> isolines;
+  std::string colour;  ///< distance or cells, where a command has both
+  bool transparent = false, orthographic = false, small = false;
+
+  [[nodiscard]] bool wanted() const { return !file.empty() || !html.empty(); }
+  /// The axis that points up in a picture of this: as asked for, or as the shape looks.
+  [[nodiscard]] char up_of(const Domain& domain) const;
+};
+
+/// Adds the options to a command; `cells` adds --colour.
+void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells = false);
+
+/// Before any work: throws UsageError for a value that makes no sense or an option without
+/// --picture, NotBuiltError where this build draws no pictures, and as check_output_name.
+void check_picture(const PictureArguments& arguments, const std::string& input);
+
+/// Adds which axis points up to a report, where a picture is wanted of what has positions.
+void report_picture(const PictureArguments& arguments, const Domain& domain, Json& json,
+                    Table& table);
+
+/// Draws and writes the picture, and the page. Throws as render::picture, render::write_png and
+/// io::write_page, and UsageError for a domain without positions. Says a note unless `quiet`.
+void write_picture(const PictureArguments& arguments, const Domain& domain,
+                   const SceneContent& content, bool quiet);
+
+}  // namespace plexway::cli

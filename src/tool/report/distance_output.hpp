@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+
+#include "io/output_place.hpp"
+#include "shape/info/report.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace plexway::cli {
+
+/// Adds an option that names an output; "-" becomes "USUAL:-", standard output in that format.
+void add_output(CLI::App& command, const std::string& name, std::string& out,
+                const std::string& help, const char* usual);
+
+using io::check_output_name;
+using io::check_output_place;
+using io::check_outputs_differ;
+using io::on_standard_output;
+
+/// What a command says at its end: on standard output, but on standard error where one of its
+/// results went there. JSON or a table, or nothing where `quiet`. Throws as write_output.
+void print_report(const Json& json, const Table& table, bool as_json, bool quiet,
+                  std::initializer_list<std::string> files);
+
+/// CSV on standard output: `vertex,distance`, and `,label`, `,original` and `,error` where there
+/// are such. Throws as write_output.
+void write_distance_csv(std::span<const double> distance, std::span<const std::int32_t> label,
+                        std::span<const std::uint32_t> original, std::span<const double> error);
+
+}  // namespace plexway::cli

@@ -1,0 +1,173 @@
+// The solves of WindowSolver, for any crew: included where one is compiled.
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <string>
+#include <type_traits>
+
+#include <plexway/error.hpp>
+
+#include "complexes/common/number_range.hpp"
+#include "labels/surface/mend_surface.hpp"
+#include "windows/window_solver.hpp"
+
+namespace plexway::windows {
+
+template <class Real>
+template <class Crew>
+auto& WindowSolver<Real>::exact(const Crew& crew) {
+  Pieces& all = pieces(crew.piece_size(), crew.deal());
+  if (!all.exact) all.exact.emplace(mesh_, all.patches);
+  return *all.exact;
+}
+
+template <class Real>
+template <class Crew>
+auto& WindowSolver<Real>::merged(const Crew& crew) {
+  Pieces& all = pieces(crew.piece_size(), crew.deal());
+  if (!all.merged) all.merged.emplace(mesh_, all.patches);
+  return *all.merged;
+}
+
+/// Does it solve in the memory that distances are read out from?
+template <class Windows>
+inline constexpr bool works_in_place = false;
+template <class Real>
+inline constexpr bool works_in_place<MergedWindows<Real>> = true;
+
+/// From the numbers and the unit inside to the caller's: nothing beyond the radius, an offset to
+/// the last bit.
+template <class Real>
+template <bool kLabels, class Windows, class Crew>
+void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& sources,
+                                  const PropagateOptions& options, bool mends, const Crew& crew,
+                                  WorkspaceState<Real>& workspace,
+                                  DistanceField<Real>& field) const {
+  NumberRange<Real>::check_unit(mesh_.unit());
+  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  const Real radius = static_cast<Real>(options.radius);
+  const auto inside = mesh_.vertices_inside();
+  if constexpr (!works_in_place<Windows>) workspace.vertex.resize(inside.size());
+  if constexpr (kLabels) workspace.vertex_source.resize(inside.size());
+  std::atomic<bool> everywhere{true};
+  crew.over(inside.size(), [&](std::size_t begin, std::size_t end) {
+    bool all = true;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index v = static_cast<Index>(i);
+      const auto d = windows.distance(v);
+      all &= d < infinity;
+      if constexpr (!works_in_place<Windows>) workspace.vertex[v] = static_cast<Real>(d);
+      if constexpr (kLabels) workspace.vertex_source[v] = windows.source(v);
+    }
+    if (!all) everywhere.store(false, std::memory_order_relaxed);
+  });
+  field.statistics = windows.statistics();
+  if (mends) {
+    const auto mended = surface::mend<Real, kLabels>(
+        mesh_, sources.only_points() ? sources.points : std::span<const PointSource>(), workspace,
+        crew);
+    field.statistics.lowered_vertices = mended.lowered;
+    field.statistics.raised_vertices = mended.raised;
+  }
+  field.distance.resize(inside.size());
+  field.label.resize(kLabels ? inside.size() : 0);
+  crew.over(inside.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const Real d =
+          static_cast<Real>(static_cast<double>(workspace.vertex[inside[v]]) * mesh_.unit());
+      const bool in = d <= radius;
+      field.distance[v] = in ? d : infinity;
+      if constexpr (kLabels)
+        field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
+    }
+  });
+  for (std::size_t n = 0; n < sources.points.size(); ++n) {
+    const PointSource& s = sources.points[n];
+    if (s.vertex != none && s.offset <= options.radius &&
+        windows.source(mesh_.inside_vertex(s.vertex)) == sources.number(n))
+      field.distance[s.vertex] = static_cast<Real>(s.offset);
+  }
+  field.complete = windows.complete();
+  field.statistics.reached_simplices = mesh_.face_count();
+  if (everywhere.load(std::memory_order_relaxed)) return;
+  const auto triangles = mesh_.triangles();
+  std::atomic<std::size_t> reached{0};
+  crew.over(mesh_.face_count(), [&](std::size_t begin, std::size_t end) {
+    std::size_t some = 0;
+    for (std::size_t f = begin; f < end; ++f)
+      some += windows.distance(triangles[f].corner[0]) < infinity;
+    reached.fetch_add(some, std::memory_order_relaxed);
+  });
+  field.statistics.reached_simplices = reached.load(std::memory_order_relaxed);
+}
+
+template <class Real>
+template <class Crew>
+bool WindowSolver<Real>::solve_by(const Crew& crew, const WindowSources& sources, Accuracy accuracy,
+                                  const PropagateOptions& options, WorkspaceState<Real>& workspace,
+                                  DistanceField<Real>& field) {
+  constexpr bool alone = std::is_same_v<Crew, Alone>;
+  if constexpr (!alone)
+    if (!sources.only_points())
+      return solve_by(Alone{}, sources, accuracy, options, workspace, field);
+  const bool merge = accuracy.kind() != Accuracy::Kind::exact;
+  const auto solved = [&](auto& windows, const auto& limit) {
+    if constexpr (alone) {
+      if (kept_) kept_->start(4 * mesh_.face_count());
+      KeptWindows<Real>* const kept = kept_ ? &*kept_ : nullptr;
+      if constexpr (works_in_place<std::remove_cvref_t<decltype(windows)>>)
+        return windows.solve(sources, options, limit, workspace.vertex, kept);
+      else
+        return windows.solve(sources, options, limit, kept);
+    } else {
+      return windows.solve(crew, sources, options, limit);
+    }
+  };
+  const auto take = [&](const auto& windows) {
+    if (sources.labels)
+      read_out<true>(windows, sources, options, merge, crew, workspace, field);
+    else
+      read_out<false>(windows, sources, options, merge, crew, workspace, field);
+  };
+  // Merged light has no least distance: where lengths are no metric it may gain on itself.
+  const auto is_sound = [&](const auto& windows) {
+    std::atomic<bool> sound{true};
+    crew.over(mesh_.vertex_count(), [&](std::size_t begin, std::size_t end) {
+      bool all = true;
+      for (std::size_t v = begin; v < end; ++v)
+        all &= !(windows.distance(static_cast<Index>(v)) < 0);
+      if (!all) sound.store(false, std::memory_order_relaxed);
+    });
+    return sound.load(std::memory_order_relaxed);
+  };
+  if (merge) {
+    auto& windows = merged(crew);
+    if (solved(windows, merge_limit(accuracy.error())) && is_sound(windows)) {
+      take(windows);
+      const auto inside = mesh_.vertices_inside();
+      field.error.resize(inside.size());
+      crew.over(inside.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v)
+          field.error[v] = field.distance[v] < std::numeric_limits<Real>::infinity()
+                               ? windows.error(inside[v]) * static_cast<Real>(mesh_.unit())
+                               : Real(0);
+      });
+      return true;
+    }
+  }
+  auto& windows = exact(crew);
+  const bool may_give_up = options.accuracy.kind() == Accuracy::Kind::usual;
+  if (!solved(windows, patience(mesh_.face_count(), !may_give_up, alone && kept_))) {
+    if (may_give_up) return false;
+    throw EndlessError("stopped after " + std::to_string(windows.statistics().expansions) +
+                       " windows on " + std::to_string(mesh_.face_count()) +
+                       " triangles: too many to wait for; use the accuracy fast, or look for "
+                       "triangles that lie on each other");
+  }
+  take(windows);
+  field.error.assign(mesh_.vertex_count(), 0);
+  return true;
+}
+
+}  // namespace plexway::windows

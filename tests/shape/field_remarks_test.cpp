@@ -1,0 +1,323 @@
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <plexway/shape/remarks.hpp>
+
+#include "data/crack_plans.hpp"
+
+namespace plexway::field_remarks_test {
+
+namespace {
+
+/// Two rows of triangles, so many edges long.
+struct Strip {
+  std::vector<std::array<double, 3>> positions;
+  std::vector<std::array<Index, 3>> faces;
+  std::vector<std::array<double, 3>> lengths;
+
+  explicit Strip(Index edges) {
+    for (Index i = 0; i <= edges; ++i) {
+      positions.push_back({static_cast<double>(i), 0, 0});
+      positions.push_back({i + .3, 1, 0});
+    }
+    for (Index i = 0; i < edges; ++i) {
+      const Index a = 2 * i;
+      faces.push_back({a, a + 2, a + 1});
+      faces.push_back({a + 2, a + 3, a + 1});
+    }
+    const auto apart = [this](Index v, Index w) {
+      return std::hypot(positions[v][0] - positions[w][0], positions[v][1] - positions[w][1]);
+    };
+    for (const auto& [a, b, c] : faces) lengths.push_back({apart(a, b), apart(b, c), apart(c, a)});
+  }
+};
+
+/// Is this among what is remarked on a field from vertex 0?
+bool remarks(AnyShape shape, const BuildOptions& building, Accuracy accuracy,
+             const std::string& words) {
+  const AnyDomain domain(std::move(shape), building);
+  const Source source = PointSource::at(0);
+  PropagateOptions options;
+  options.accuracy = accuracy;
+  const AnyField field = domain.solve(Serial{}, source, options);
+  const auto told = plexway::remarks(domain, field, source, options, Reader::tool);
+  return std::any_of(told.begin(), told.end(), [&](const Remark& remark) {
+    return remark.text.find(words) != std::string::npos;
+  });
+}
+
+bool warns_of_rounding(AnyShape shape, Precision precision, Accuracy accuracy) {
+  BuildOptions building;
+  building.precision = precision;
+  building.triangulation = Triangulation::input;
+  return remarks(std::move(shape), building, accuracy, "use --precision double");
+}
+
+/// A roof with so many degrees on either side of its ridge, and a hole there.
+io::Points roof(unsigned seed, double degrees) {
+  constexpr int side = 30;
+  const double slope = degrees * std::acos(-1.) / 180, half = .5 * (side - 1);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> off(-.15, .15);
+  io::Points points;
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) {
+      const double x = i - half + off(random), y = j + off(random);
+      if (std::hypot(x - .3, y - 15) <= 1.6) continue;
+      points.positions.push_back({x * std::cos(slope), y, -std::abs(x) * std::sin(slope)});
+    }
+  return points;
+}
+
+/// A block of cubes that are there, each of six tetrahedra, and a skin on the whole of its floor.
+template <class There>
+MixedShape block(std::array<std::size_t, 3> cubes, const There& there, bool skin) {
+  MixedShape shape;
+  MixedShape::Part part;
+  const auto at = [&](std::size_t x, std::size_t y, std::size_t z) {
+    return static_cast<Index>((z * (cubes[1] + 1) + y) * (cubes[0] + 1) + x);
+  };
+  for (std::size_t z = 0; z <= cubes[2]; ++z)
+    for (std::size_t y = 0; y <= cubes[1]; ++y)
+      for (std::size_t x = 0; x <= cubes[0]; ++x)
+        shape.positions.push_back({double(x), double(y), double(z)});
+  for (std::size_t z = 0; z < cubes[2]; ++z)
+    for (std::size_t y = 0; y < cubes[1]; ++y)
+      for (std::size_t x = 0; x < cubes[0]; ++x) {
+        if (!there(x, y, z)) continue;
+        std::array<std::size_t, 3> axes = {0, 1, 2};
+        do {
+          std::array<std::size_t, 3> corner = {x, y, z};
+          std::array<Index, 4> tet = {at(x, y, z)};
+          for (std::size_t i = 0; i < 3; ++i) {
+            ++corner[axes[i]];
+            tet[i + 1] = at(corner[0], corner[1], corner[2]);
+          }
+          part.tets.push_back(tet);
+        } while (std::next_permutation(axes.begin(), axes.end()));
+        if (!skin || z > 0) continue;
+        part.triangles.push_back({at(x, y, 0), at(x + 1, y, 0), at(x + 1, y + 1, 0)});
+        part.triangles.push_back({at(x, y, 0), at(x + 1, y + 1, 0), at(x, y + 1, 0)});
+      }
+  part.vertices = shape.positions.size();
+  shape.parts = {part};
+  return shape;
+}
+
+/// Two layers of points at random, half a spacing apart.
+io::Points layers(unsigned seed) {
+  constexpr int side = 20;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> at(0, side);
+  io::Points points;
+  for (int i = 0; i < 2 * side * side; ++i)
+    points.positions.push_back({at(random), at(random), i % 2 == 0 ? 0 : .5});
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("strips longer than single precision can hold are told") {
+  const Strip s(6000), longer(20000), longest(60000);
+  const auto by_lengths = [](const Strip& strip) {
+    return AnyShape::surface(strip.positions.size(), strip.faces, strip.lengths);
+  };
+  const auto in_space = [](const Strip& strip) {
+    return AnyShape::surface(strip.positions, strip.faces);
+  };
+  const Accuracy fast = Accuracy::fast(), accurate = Accuracy::accurate();
+  CHECK_FALSE(warns_of_rounding(by_lengths(s), Precision::single, accurate));
+  CHECK(warns_of_rounding(by_lengths(longer), Precision::single, accurate));
+  CHECK_FALSE(warns_of_rounding(by_lengths(longer), Precision::twice, accurate));
+  CHECK_FALSE(warns_of_rounding(by_lengths(longer), Precision::single, fast));
+  CHECK_FALSE(warns_of_rounding(in_space(longer), Precision::single, accurate));
+  CHECK(warns_of_rounding(in_space(longest), Precision::single, accurate));
+  CHECK(warns_of_rounding(in_space(longest), Precision::single, fast));
+}
+
+TEST_CASE("holes of a cloud that points do not tell how to close are told") {
+  const auto warns = [](io::Points points,
+                        const std::string& words = "around holes that could not be closed") {
+    return remarks(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(), words);
+  };
+  std::size_t warned = 0;
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    CHECK_FALSE(warns(roof(seed, 0)));
+    if (!warns(layers(seed))) continue;
+    ++warned;
+    // Normals of no use are not named as the cure.
+    io::Points points = layers(seed);
+    for (std::size_t i = 0; i < points.positions.size(); ++i)
+      points.normals.push_back({0, 0, i % 3 == 0 ? 1. : -1.});
+    CHECK(warns(std::move(points), "and are not taken"));
+  }
+  CHECK(warned > 0);
+}
+
+TEST_CASE("noise at a sharp ridge of a cloud is told") {
+  const auto warns = [](double degrees, double noise) {
+    io::Points points = roof(5, degrees);
+    std::mt19937 random(9);
+    std::normal_distribution<double> off(0, noise);
+    for (auto& p : points.positions)
+      for (double& x : p) x += noise > 0 ? off(random) : 0;
+    return remarks(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(),
+                   "cut through the inside");
+  };
+  CHECK(warns(75, .06));
+  CHECK(warns(60, .06));
+  CHECK_FALSE(warns(0, .06));
+  CHECK_FALSE(warns(60, 0));
+  CHECK_FALSE(warns(0, 0));
+}
+
+TEST_CASE("normals of a small cloud with a sharp ridge are told from those of arbitrary signs") {
+  for (const double degrees : {0., 30., 60., 75.}) {
+    const double slope = degrees * std::acos(-1.) / 180;
+    io::Points points = roof(3, degrees), thin;
+    // A narrow strip along the ridge: many nearest neighbours are beyond it.
+    for (const auto& p : points.positions)
+      if (std::abs(p[0]) < 3 * std::cos(slope)) thin.positions.push_back(p);
+    for (const auto& p : thin.positions)
+      thin.normals.push_back({(p[0] < 0 ? -1 : 1) * std::sin(slope), 0, std::cos(slope)});
+    io::Points arbitrary = thin;
+    std::mt19937 random(4);
+    for (auto& n : arbitrary.normals)
+      if (random() % 2 == 0)
+        for (double& x : n) x = -x;
+    CAPTURE(degrees);
+    CHECK(AnyShape::cloud(std::move(thin)).cloud()->normals_agree);
+    CHECK_FALSE(AnyShape::cloud(std::move(arbitrary)).cloud()->normals_agree);
+  }
+}
+
+TEST_CASE("parts of a cloud that no triangles join are told") {
+  // Two squares in one plane, corner to corner.
+  const auto warns = [](double gap) {
+    io::Points points;
+    for (int i = 0; i < 12; ++i)
+      for (int j = 0; j < 12; ++j) {
+        points.positions.push_back({double(i), double(j), 0});
+        points.positions.push_back({11 + gap + i, 11 + gap + j, 0});
+      }
+    return remarks(AnyShape::cloud(std::move(points)), {}, Accuracy::fast(),
+                   "join parts that have no triangles between them");
+  };
+  CHECK(warns(2.5));
+  CHECK_FALSE(warns(1));
+  CHECK_FALSE(warns(3));  // two components
+}
+
+TEST_CASE("points of a cloud behind a notch in its rim are told") {
+  // A flat grid with a notch three spacings deep; a source beside it, and one far away.
+  const auto warns = [](std::size_t from, double bent, double offset = 0) {
+    io::Points points;
+    for (int i = 0; i < 40; ++i)
+      for (int j = 0; j < 20; ++j)
+        if (j > 2 || i < 18 || i > 21)
+          points.positions.push_back({double(i), double(j), bent * (i - 20.) * (i - 20.)});
+    const AnyDomain domain(AnyShape::cloud(std::move(points)));
+    PointSource at = PointSource::at(static_cast<Index>(from));
+    at.offset = offset;
+    const Source source = at;
+    const AnyField field = domain.solve(Serial{}, source);
+    const auto told = field_remarks(domain, field, source);
+    return std::any_of(told.begin(), told.end(), [](const Remark& remark) {
+      return remark.text.find("around a notch in its rim") != std::string::npos;
+    });
+  };
+  CHECK(warns(17 * 20, 0));
+  CHECK_FALSE(warns(19, 0));
+  // What a source has walked before is no detour.
+  CHECK(warns(17 * 20, 0, 1));
+  CHECK_FALSE(warns(19, 0, 1));
+  // Curved so that straight lines are shorter by more: that is no notch.
+  CHECK_FALSE(warns(0, .05));
+}
+
+TEST_CASE("ways that are refracted and bend around edges of a solid are told") {
+  const auto told = [](const AnyShape& shape, const std::vector<double>& speed) {
+    BuildOptions building{.precision = Precision::twice};
+    metric::SimplexSpeeds speeds{.speed = speed, .agreement = {metric::Sides::own}};
+    building.lengths = std::make_shared<const MeasuredLengths>(shape.measure(speeds));
+    return remarks(shape, building, Accuracy::fast(), "around which ways bend, and faces");
+  };
+  const auto whole = [](std::size_t, std::size_t, std::size_t) { return true; };
+  const auto pierced = [](std::size_t x, std::size_t y, std::size_t) {
+    return !(x == 1 && (y == 1 || y == 2));
+  };
+  const auto notched = [](std::size_t x, std::size_t, std::size_t z) { return x != 1 || z < 1; };
+  // Of a half a speed each, the upper one by `fast`.
+  const auto in_halves = [&](const auto& there, double fast) {
+    const MixedShape cubes = block({3, 4, 2}, there, false);
+    const auto& tets = cubes.parts[0].tets;
+    std::vector<double> speed;
+    for (const auto& tet : tets) {
+      double y = 0;
+      for (const Index v : tet) y += cubes.positions[v][1] / 4;
+      speed.push_back(y > 2 ? fast : 1);
+    }
+    return told(AnyShape::solid(cubes.positions, tets), speed);
+  };
+  CHECK(in_halves(pierced, 2));
+  CHECK(in_halves(notched, .8));
+  CHECK_FALSE(in_halves(whole, 2));
+  CHECK_FALSE(in_halves(pierced, 1));
+  const auto with_skin = [&](const auto& there, double fast) {
+    const MixedShape cubes = block({3, 4, 2}, there, true);
+    std::vector<double> speed(cubes.parts[0].triangles.size(), fast);
+    speed.resize(speed.size() + cubes.parts[0].tets.size(), 1);
+    return told(AnyShape::mixed(cubes), speed);
+  };
+  CHECK(with_skin(notched, 2));
+  CHECK_FALSE(with_skin(notched, 1));
+  CHECK_FALSE(with_skin(whole, 2));
+}
+
+TEST_CASE("where vertices may be too far behind several edges of a mixed domain is told") {
+  const auto told = [](const AnyDomain& domain, const std::vector<Source>& sources,
+                       const std::string& words) {
+    const AnyField field = domain.solve(Serial{}, sources, {});
+    const auto all = plexway::remarks(domain, field, sources);
+    return std::any_of(all.begin(), all.end(), [&](const Remark& remark) {
+      return remark.text.find(words) != std::string::npos;
+    });
+  };
+  const auto prism = [](const std::vector<samples::CrackPlan::Crack>& cracks, bool wired = true) {
+    const samples::CrackPlan plan(8, cracks, 0, [] { return .3; });
+    const auto solid = plan.solid(.38);
+    MixedShape shape;  // with a wire at its first vertex
+    shape.positions.assign(solid.places.begin(), solid.places.end());
+    const auto first = static_cast<Index>(shape.positions.size());
+    shape.positions.push_back({-1, -1, -1});
+    shape.parts = {{0, shape.positions.size(), {{0, first}}, {}, solid.tets}};
+    return AnyDomain(wired ? AnyShape::mixed(shape) : AnyShape::solid(solid.places, solid.tets),
+                     {});
+  };
+  const std::string cracks = "the domain have cracks", several = "ways from several sources bend";
+  const std::vector<Source> one = {PointSource::at(0)};
+  const std::vector<Source> two = {PointSource::at(0), PointSource::at(8)};
+  const AnyDomain slit = prism({{{2, 4}, {6, 4}}});
+  CHECK_FALSE(told(slit, one, cracks));
+  CHECK(told(slit, two, several));
+  const AnyDomain many =
+      prism({{{7, 3}, {7, 0}}, {{4, 4}, {2, 4}}, {{4, 6}, {8, 6}}, {{6, 3}, {3, 3}}});
+  CHECK(told(many, one, cracks));
+  CHECK_FALSE(told(many, one, several));
+  const AnyDomain alone =
+      prism({{{7, 3}, {7, 0}}, {{4, 4}, {2, 4}}, {{4, 6}, {8, 6}}, {{6, 3}, {3, 3}}}, false);
+  CHECK_FALSE(told(alone, one, cracks));
+  CHECK_FALSE(told(alone, two, several));
+  const AnyDomain whole = prism({});
+  CHECK_FALSE(told(whole, two, cracks));
+  CHECK_FALSE(told(whole, two, several));
+}
+
+}  // namespace plexway::field_remarks_test

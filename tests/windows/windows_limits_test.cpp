@@ -1,0 +1,148 @@
+#include <catch2/catch.hpp>
+
+#include <plexway/error.hpp>
+
+#include "labels/awkward_surfaces.hpp"
+#include "windows/windows_solving.hpp"
+
+namespace plexway::testing::windows_limits_test {
+
+namespace {
+
+/// Finite exactly where `fast` reaches, never NaN or below 0, 0 at the source; and it ends.
+template <class Real>
+void check_reach(const Surface& s, Index source) {
+  const auto mesh = s.mesh<Real>();
+  const std::vector<double> fast = solve(mesh, PointSource::at(source));
+  for (const Accuracy accuracy : window_accuracies)
+    for (const Schedule schedule : schedules) {
+      PropagateOptions options;
+      options.schedule = schedule;
+      const auto d = solve_windows(mesh, {PointSource::at(source)}, accuracy, options);
+      bool right = true;
+      for (std::size_t v = 0; v < d.size(); ++v)
+        right &= !std::isnan(d[v]) && d[v] >= 0 && std::isfinite(d[v]) == std::isfinite(fast[v]);
+      CAPTURE(name(accuracy), static_cast<int>(schedule), source, s.faces.size());
+      CHECK(right);
+      CHECK(d[source] == 0);
+    }
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("windows reach what the default reaches: soups of triangles", "", float,
+                   double) {
+  each_soup(20, 40, check_reach<TestType>);
+}
+
+TEMPLATE_TEST_CASE("windows reach what the default reaches: crumpled surfaces", "", float, double) {
+  each_crumpled(8, 10, check_reach<TestType>);
+}
+
+TEMPLATE_TEST_CASE("windows reach what the default reaches: nothing with an area", "", float,
+                   double) {
+  each_flat(check_reach<TestType>);
+}
+
+TEMPLATE_TEST_CASE("windows end where lengths are those of no triangle", "", float, double) {
+  std::mt19937 random(12);
+  const Surface s = grid(9, 9);
+  for (int n = 0; n < 40; ++n) {
+    std::vector<std::array<double, 3>> lengths = lengths_of(s);
+    std::map<std::pair<Index, Index>, double> length;
+    for (std::size_t f = 0; f < s.faces.size(); ++f)
+      for (std::size_t i = 0; i < 3; ++i)
+        lengths[f][i] = length
+                            .try_emplace(std::minmax(s.faces[f][i], s.faces[f][(i + 1) % 3]),
+                                         uniform(random) < .1 ? 0 : uniform(random))
+                            .first->second;
+    const TriangleMesh<TestType> mesh(s.positions.size(), s.faces, lengths);
+    for (const Accuracy accuracy : window_accuracies)
+      for (const Schedule schedule : schedules) {
+        PropagateOptions options;
+        options.schedule = schedule;
+        bool fine = true;
+        for (const double d : solve_windows(mesh, {PointSource::at(50)}, accuracy, options))
+          fine &= d >= 0 && d < 1e3;
+        CAPTURE(n, name(accuracy), static_cast<int>(schedule));
+        CHECK(fine);
+      }
+  }
+}
+
+TEMPLATE_TEST_CASE("windows: radius, labels, offsets, budget, progress", "", float, double) {
+  const Surface s = grid(20, 20);
+  const auto mesh = s.mesh<TestType>();
+  Workspace<TestType> workspace;
+  DistanceField<TestType> field, other;
+  const PointSource corner = PointSource::at(0);
+  const auto from_corner = straight(s, s.positions[0]);
+  for (const Accuracy accuracy : window_accuracies) {
+    CAPTURE(name(accuracy));
+    const double off = accuracy == Accuracy::exact() ? 1e-6 : 1e-3;
+    PropagateOptions options;
+    options.radius = .5;
+    solve_windows(mesh, {&corner, 1}, accuracy, options, workspace, field);
+    CHECK(field.label.empty());
+    CHECK(field.complete);
+    bool right = true;
+    for (std::size_t v = 0; v < from_corner.size(); ++v)
+      right &= from_corner[v] > .5 + off ? std::isinf(field.distance[v])
+                                         : from_corner[v] > .5 - off ||
+                                               std::abs(field.distance[v] - from_corner[v]) < off;
+    CHECK(right);
+
+    PointSource far = PointSource::at(s.nearest(1, 1));
+    far.offset = .1234567;
+    const auto from_far = straight(s, {1, 1, 0});
+    const std::vector<PointSource> both = {corner, far};
+    solve_windows(mesh, both, accuracy, {}, workspace, field);
+    right = field.label.size() == from_far.size();
+    for (std::size_t v = 0; v < from_far.size() && right; ++v) {
+      const double a = from_corner[v], b = from_far[v] + far.offset;
+      right &= std::abs(static_cast<double>(field.distance[v]) - std::min(a, b)) < off;
+      right &= std::abs(a - b) < off || field.label[v] == (a < b ? 0u : 1u);
+    }
+    CHECK(right);
+    CHECK(field.distance[far.vertex] == static_cast<TestType>(.1234567));
+    solve_windows(mesh, both, accuracy, {}, workspace, other);
+    CHECK(other.distance == field.distance);
+
+    options = {};
+    options.max_expansions = 40;
+    solve_windows(mesh, {&corner, 1}, accuracy, options, workspace, field);
+    CHECK_FALSE(field.complete);
+    CHECK(field.statistics.expansions == 40);
+    CHECK(field.distance[0] == 0);
+    CHECK(std::isinf(field.distance.back()));
+  }
+}
+
+TEMPLATE_TEST_CASE("windows: a callback sees them go and may stop them", "", float, double) {
+  const Surface s = grid(160, 160);
+  const auto mesh = s.mesh<TestType>();
+  Workspace<TestType> workspace;
+  DistanceField<TestType> field;
+  const PointSource corner = PointSource::at(0);
+  for (const Accuracy accuracy : window_accuracies) {
+    PropagateOptions options;
+    int calls = 0;
+    double before = 0;
+    bool forward = true;
+    options.progress = [&](const Progress& p) {
+      forward &= p.distance >= before && p.distance < 2;
+      before = p.distance;
+      return ++calls < 100;
+    };
+    solve_windows(mesh, {&corner, 1}, accuracy, options, workspace, field);
+    CHECK(calls > 0);
+    CHECK(forward);
+    options.progress = [](const Progress&) { return false; };
+    CHECK_THROWS_AS(solve_windows(mesh, {&corner, 1}, accuracy, options, workspace, field),
+                    Cancelled);
+    solve_windows(mesh, {&corner, 1}, accuracy, {}, workspace, field);
+    CHECK(field.distance.back() == Approx(std::sqrt(2.)).epsilon(1e-3));
+  }
+}
+
+}  // namespace plexway::testing::windows_limits_test
