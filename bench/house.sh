@@ -33,12 +33,11 @@ row() {
 revisions="$*"
 printf '| |'; for r in $revisions; do printf ' %s |' "$(git show -s --format='%h, %as' "$r" | tail -1)"; done
 printf '\n|---|'; for r in $revisions; do printf -- '---:|'; done; printf '\n'
-library='include src/kernel complexes src/metric src/labels src/executors src/paths src/io src/file
-  src/render src/shape src/mpi shaders complexes'
-for folder in $library src/tool src/tool_mpi python/src web/module tests bench examples; do
+library='include src complexes shaders'
+for folder in $library python/src web/module tests bench examples; do
   row "\`$folder\`" lines "$folder"
 done
-row 'the library, `include` to `complexes`' lines $library
+row 'the library, `include` to `shaders`' lines $library
 row 'public headers' headers
 row 'of them implementation' implementation
 row 'declarations of `solve`, `solve_each`' verbs 'solve|solve_each'

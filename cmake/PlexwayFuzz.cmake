@@ -14,7 +14,8 @@ endif()
 # Adds the function of a format to a program, with what it reads by.
 function(plexway_add_fuzzer target format)
   target_sources(${target} PRIVATE "${fuzz_dir}/fuzz_${format}.cpp")
-  target_include_directories(${target} PRIVATE "${fuzz_dir}" "${PROJECT_SOURCE_DIR}/src")
+  target_include_directories(${target} PRIVATE "${fuzz_dir}" "${PROJECT_SOURCE_DIR}/src"
+    "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${target} PRIVATE plexway::core plexway::io)
   if(format STREQUAL "arguments")
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:plexway_cli>)
@@ -24,15 +25,13 @@ function(plexway_add_fuzzer target format)
       target_link_libraries(${target} PRIVATE plexway::any)
     else()
       find_package(nlohmann_json QUIET)
-      target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src/any/tuning/policy_file.cpp"
-        "${PROJECT_SOURCE_DIR}/src/any/errors/truth_file.cpp"
-        "${PROJECT_SOURCE_DIR}/src/any/info/report.cpp" "${PROJECT_SOURCE_DIR}/src/any/words.cpp")
+      target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src/shape/tuning/policy_file.cpp"
+        "${PROJECT_SOURCE_DIR}/src/shape/errors/truth_file.cpp"
+        "${PROJECT_SOURCE_DIR}/src/shape/info/report.cpp" "${PROJECT_SOURCE_DIR}/src/shape/words.cpp")
       target_link_libraries(${target} PRIVATE nlohmann_json::nlohmann_json)
     endif()
-  elseif(format MATCHES "^solve_(plane|mixed)$")
-    target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}")
   elseif(format STREQUAL "pcd")  # what is looked at before PCL; PCL's own faults are not searched
-    set(folder "${PROJECT_SOURCE_DIR}/complexes/pcl")
+    set(folder "${PROJECT_SOURCE_DIR}/complexes/cloud/pcl")
     target_include_directories(${target} PRIVATE "${folder}/src")
     if(TARGET plexway_pcl AND target STREQUAL "test_fuzz")
       target_link_libraries(${target} PRIVATE plexway::pcl)
@@ -41,7 +40,7 @@ function(plexway_add_fuzzer target format)
       target_sources(${target} PRIVATE "${folder}/src/pcd_check.cpp")
     endif()
   elseif(format STREQUAL "vdb")  # without OpenVDB, what listens to the helper
-    set(folder "${PROJECT_SOURCE_DIR}/complexes/openvdb")
+    set(folder "${PROJECT_SOURCE_DIR}/complexes/solid/openvdb")
     target_include_directories(${target} PRIVATE "${folder}/include")
     if(TARGET plexway_openvdb)
       target_link_libraries(${target} PRIVATE plexway::openvdb)

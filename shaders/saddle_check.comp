@@ -6,7 +6,7 @@
 const int K = 1;
 
 //@include kernel/hinge_kernel.inl
-//@include propagate/saddle_step.inl
+//@include labels/surface/saddle_step.inl
 
 #ifndef PLEXWAY_GROUP
 #define PLEXWAY_GROUP 64

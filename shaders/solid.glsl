@@ -1,4 +1,4 @@
-// A solid on the device: TetRecord<float> (complex/detail/tet_record.hpp), squared lengths of its
+// A solid on the device: TetRecord<float> (solid/detail/tet_record.hpp), squared lengths of its
 // tetrahedra's edges, and the plain step. A shader that includes this has declared `labels` before,
 // two uvec4 a cell, see `unpack`.
 
@@ -58,7 +58,7 @@ SolidLabel label_of(uint t) {
   return unpack(labels[at], labels[at + 1u]);
 }
 
-//@include propagate/plain_solid_step.inl
+//@include labels/solid/plain_solid_step.inl
 
 /// At least the longest way from the centre to a corner.
 float size_of(uint t) {

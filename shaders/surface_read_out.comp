@@ -10,7 +10,7 @@ const int K = 1;
 #define PLEXWAY_GROUP 64
 #endif
 //@include kernel/hinge_kernel.inl
-//@include propagate/saddle_step.inl
+//@include labels/surface/saddle_step.inl
 //@include surface.glsl
 
 layout(local_size_x = PLEXWAY_GROUP) in;

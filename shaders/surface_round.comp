@@ -13,7 +13,7 @@ const int K = 1;
 #define PLEXWAY_GROUP 64
 #endif
 //@include kernel/hinge_kernel.inl
-//@include propagate/saddle_step.inl
+//@include labels/surface/saddle_step.inl
 //@include surface.glsl
 //@include front.glsl
 

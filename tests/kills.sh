@@ -3,4 +3,4 @@
 #   tests/kills.sh [kills [folder of the build]]
 set -eu
 cd "$(dirname "$0")/.."
-PLEXWAY_KILLS="${1:-100}" "${2:-build}/bin/test_cli" '[kills]'
+PLEXWAY_KILLS="${1:-100}" "${2:-build}/bin/test_tool" '[kills]'

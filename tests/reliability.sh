@@ -40,7 +40,7 @@ stage helpers-openvdb "$build/bin/test_openvdb" --warn NoTests "the file is blam
 stage helpers-tetgen "$build/bin/test_tetgen" --warn NoTests "the surface is not blamed*"
 stage damaged-vdb "$build/bin/test_openvdb" --warn NoTests "truncated and damaged*"
 stage damaged-pcd "$build/bin/test_pcl" --warn NoTests "bad pcd*"
-stage faults "$build/bin/test_cli" --warn NoTests "faults:*"
+stage faults "$build/bin/test_tool" --warn NoTests "faults:*"
 stage packages tests/package.sh "$build" "$build/tests/package"
 
 left="$((until - $(date +%s)))"

@@ -12,6 +12,7 @@
 #include "complexes/cloud/neighbourhood.hpp"
 #include "complexes/common/local_frame.hpp"
 #include "complexes/common/median.hpp"
+#include "complexes/common/point3.hpp"
 
 namespace plexway {
 namespace {

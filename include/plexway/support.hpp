@@ -10,7 +10,7 @@
 /// @file
 /// The table of what goes together. The sentences that say why something does not, and what domains
 /// themselves are asked, are in domain/support.hpp; what files, builds and shapes are, in
-/// any/support.hpp.
+/// shape/support.hpp.
 // Everything that can be solved, and everything that is refused and why, is decided in these three
 // and nowhere else; tests/house/one_table_test.cpp looks for other places.
 namespace plexway {
@@ -164,9 +164,9 @@ template <ExecutorType E, DomainType D>
   X(simplex_labels, "PathField::simplex_labels")                                       \
   X(searches, "BoundedSearch and PathSearch")                                          \
   X(samples, "farthest_points, poisson_disks, centroidal_voronoi and distance_matrix") \
-  X(isolines, "isolines of a field (any/isolines.hpp)")                                \
-  X(arcs, "isolines as arcs, and fine_field (any/isolines.hpp)")                       \
-  X(isosurfaces, "isosurfaces of a field (any/isolines.hpp)")                          \
+  X(isolines, "isolines of a field (shape/isolines.hpp)")                              \
+  X(arcs, "isolines as arcs, and fine_field (shape/isolines.hpp)")                     \
+  X(isosurfaces, "isosurfaces of a field (shape/isolines.hpp)")                        \
   X(pictures, "ShapeScene, and pages to turn")                                         \
   X(masks, "BuildOptions::mask")                                                       \
   X(metrics, "AnyShape::measure")                                                      \
@@ -182,12 +182,12 @@ template <ExecutorType E, DomainType D>
   X(margins, "TraceOptions::margin")                                                   \
   X(duals, "the dual triangulation of cells, 'plexway cvt --dual'")                    \
   X(error_classes, "errors by place and shape, 'plexway bench --anatomy'")             \
-  X(rows, "all_pairs and near_pairs (any/pairs.hpp)")                                  \
+  X(rows, "all_pairs and near_pairs (shape/pairs.hpp)")                                \
   X(ranks, "OpenMP::ranks")                                                            \
   X(in_parts, "SurfaceParts, 'plexway-mpi distance --in-parts'")                       \
   X(pieces, "MixedComplex::add")                                                       \
   X(places, "AnyShape::closest and AnyShape::position")                                \
-  X(astar, "find_paths (any/search.hpp), 'plexway path --astar'")                      \
+  X(astar, "find_paths (shape/search.hpp), 'plexway path --astar'")                    \
   X(darts, "poisson_disks by DartOrder::simplices")                                    \
   X(given_lengths, "AnyShape::measure by metric::GivenLengths")
 

@@ -104,8 +104,8 @@ struct BuildArguments {
   py::object progress;  // None or a function
 };
 
-// None; a text (any/mask_text.hpp); truth values, which are left of the vertices or the simplices;
-// or those of both that are closed.
+// None; a text (shape/mask_text.hpp); truth values, which are left of the vertices or the
+// simplices; or those of both that are closed.
 std::shared_ptr<const Mask> mask_of(const py::object& given, const AnyShape& shape) {
   if (given.is_none()) return nullptr;
   if (py::isinstance<py::str>(given)) return read_mask(given.cast<std::string>(), shape);

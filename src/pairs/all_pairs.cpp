@@ -53,5 +53,6 @@ PairsReport all_pairs(const E& executor, const D& domain, const PairsRequest& re
   template PairsReport all_pairs(const OpenMP&, const __VA_ARGS__&, const PairsRequest&, \
                                  const PairsSink<DenseRow<RealOf<__VA_ARGS__>>>&);
 PLEXWAY_DOMAINS(PLEXWAY_PAIRS)
+#undef PLEXWAY_PAIRS
 
 }  // namespace plexway

@@ -233,5 +233,6 @@ PairsReport near_pairs(const E& executor, const D& domain, const PairsRequest& r
                                   const NearLimits&,                                      \
                                   const PairsSink<SparseRow<RealOf<__VA_ARGS__>>>&);
 PLEXWAY_DOMAINS(PLEXWAY_PAIRS)
+#undef PLEXWAY_PAIRS
 
 }  // namespace plexway

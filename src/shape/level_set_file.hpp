@@ -22,7 +22,7 @@ namespace plexway {
 /// Writes where a field that was solved on `domain` has the values: in a solid its surfaces, with
 /// the value at each vertex where the format has room for it; elsewhere lines, which are arcs
 /// within `tolerance` where `paths` is there, and straight in triangles else. `shown` is what they
-/// lie in: the domain's shape, or what is open of it. Throws as isolines (any/isolines.hpp), and
+/// lie in: the domain's shape, or what is open of it. Throws as isolines (shape/isolines.hpp), and
 /// Error "cannot write FILE: reason".
 void write_level_sets(const std::filesystem::path& out, const AnyShape& shown,
                       const AnyDomain& domain, const AnyField& field, const AnyPathField* paths,

@@ -102,7 +102,7 @@ class Asked {
     return name("as") + " " + std::string(kind_name(kind));
   }
 
-  // What goes together with a file, or several, by the table (any/support.hpp). In two parts: of
+  // What goes together with a file, or several, by the table (shape/support.hpp). In two parts: of
   // grids the form of a file tells before it is read.
   void check_grid(const FileUse& use) const {
     ask(!options_.volume.grid.empty(), Reading::grid, name("grid"), use);

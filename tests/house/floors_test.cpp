@@ -16,15 +16,24 @@ namespace fs = std::filesystem;
 // Includes only point downward. A new folder or top-level header gets its floor here.
 const std::map<std::string, int> floor_of_name = {
     {"error.hpp", 0},      {"version.hpp", 0}, {"kernel", 0},
-    {"file", 0},           {"complex", 1},     {"source", 1},
-    {"metric", 1},         {"domain", 1},      {"propagate", 2},
-    {"strings", 2},        {"executors", 3},   {"executors.hpp", 3},
-    {"solve.hpp", 3},      {"support.hpp", 3}, {"carried.hpp", 3},
-    {"complexes", 4},      {"apps", 5},        {"io", 6},
-    {"render", 6},         {"mpi", 6},         {"any", 7},
-    {"any_domain.hpp", 7}, {"cli", 8},         {"cli_mpi", 8},
-    {"shaders", 0},        {"plexway.hpp", 8},
+    {"file", 0},           {"shaders", 0},     {"common", 1},
+    {"partition", 1},      {"surface", 1},     {"solid", 1},
+    {"wireframe", 1},      {"cloud", 1},       {"simplicial", 1},
+    {"mixed", 1},          {"source", 1},      {"metric", 1},
+    {"domain", 1},         {"solve", 2},       {"labels", 2},
+    {"windows", 2},        {"strings", 2},     {"executors", 3},
+    {"executors.hpp", 3},  {"solve.hpp", 3},   {"support.hpp", 3},
+    {"carried.hpp", 3},    {"paths", 5},       {"fields", 5},
+    {"sampling", 5},       {"pairs", 5},       {"io", 6},
+    {"render", 6},         {"mpi", 6},         {"shape", 7},
+    {"any_domain.hpp", 7}, {"tool", 8},        {"tool_mpi", 8},
+    {"plexway.hpp", 8},
 };
+// Beside these: what brings another library along.
+const std::vector<std::string> providers = {
+    "complexes/solid/tetgen/", "complexes/solid/openvdb/",         "complexes/cloud/flann/",
+    "complexes/cloud/pcl/",    "complexes/wireframe/boost_graph/", "src/io/hdf5/"};
+constexpr int floor_of_providers = 4;
 
 std::string first_part(const std::string& path) { return path.substr(0, path.find('/')); }
 
@@ -34,11 +43,19 @@ std::optional<std::string> after(const std::string& path, const std::string& pre
   return path.substr(prefix.size());
 }
 
+// The provider that a file is part of, or nothing.
+std::string provider_of(const std::string& file) {
+  for (const std::string& provider : providers)
+    if (file.rfind(provider, 0) == 0) return provider;
+  return "";
+}
+
 // The floor of a file of the tree, or -1 if the table does not know it.
 int floor_of(const std::string& file) {
+  if (!provider_of(file).empty()) return floor_of_providers;
   std::string name = first_part(file);
-  if (const auto rest = after(file, "include/plexway/")) name = first_part(*rest);
-  if (const auto rest = after(file, "src/")) name = first_part(*rest);
+  for (const char* folder : {"include/plexway/", "src/", "complexes/"})
+    if (const auto rest = after(file, folder)) name = first_part(*rest);
   const auto found = floor_of_name.find(name);
   return found == floor_of_name.end() ? -1 : found->second;
 }
@@ -54,7 +71,8 @@ std::optional<std::string> target_of(const std::string& from, const house::Inclu
   candidates.push_back(include.name);
   candidates.push_back("shaders/" + include.name);
   if (const auto rest = after(include.name, "plexway/")) {
-    candidates.push_back("complexes/" + first_part(*rest) + "/include/" + include.name);
+    for (const std::string& provider : providers)
+      candidates.push_back(provider + "include/" + include.name);
     if (*rest == "version.hpp") return "include/plexway/version.hpp";
   }
   for (const std::string& candidate : candidates) {
@@ -102,14 +120,13 @@ TEST_CASE("includes only point downward") {
 
 TEST_CASE("a provider does not include another provider") {
   for (const std::string& file : library_code()) {
-    const auto own = after(file, "complexes/");
-    if (!own) continue;
+    const std::string own = provider_of(file);
+    if (own.empty()) continue;
     for (const house::Include& include : house::includes_of(file)) {
       const auto target = target_of(file, include);
-      const auto other = target ? after(*target, "complexes/") : std::nullopt;
-      if (!other || other->find('/') == other->npos) continue;  // complexes/*.hpp is for all
+      const std::string other = target ? provider_of(*target) : "";
       INFO(file << ':' << include.line << ": " << include.name);
-      CHECK(first_part(*other) == first_part(*own));
+      CHECK((other.empty() || other == own));
     }
   }
 }
@@ -123,12 +140,12 @@ TEST_CASE("public headers do not bring other libraries along") {
       "png.h",  "tiny",   "happly", "glad/",    "tbb/",   "benchmark/", "hdf5.h",  "mpi.h"};
   for (const std::string& file : library_code()) {
     const bool is_public = file.rfind("include/", 0) == 0 ||
-                           (after(file, "complexes/") && file.find("/include/") != file.npos);
+                           (!provider_of(file).empty() && file.find("/include/") != file.npos);
     if (!is_public) continue;
     for (const house::Include& include : house::includes_of(file)) {
       for (const std::string& name : heavy) {
         // The one opt-in header for callers who have Eigen matrices.
-        if (file == "include/plexway/complex/eigen.hpp" && name == "Eigen/") continue;
+        if (file == "include/plexway/common/eigen.hpp" && name == "Eigen/") continue;
         // The one opt-in header for callers who run Boost.Graph's algorithms on a complex.
         if (file == opt_in_boost && name == "boost/") continue;
         INFO(file << ':' << include.line << ": includes <" << include.name << ">");
@@ -151,7 +168,7 @@ TEST_CASE("below the providers nothing includes their libraries") {
   const std::vector<std::string> theirs = {"tetgen",   "flann/", "pcl/",
                                            "openvdb/", "boost/", "CGAL/"};
   for (const std::string& file : library_code()) {
-    if (after(file, "complexes/")) continue;
+    if (!provider_of(file).empty()) continue;
     for (const house::Include& include : house::includes_of(file)) {
       for (const std::string& name : theirs) {
         INFO(file << ':' << include.line << ": includes <" << include.name << ">");

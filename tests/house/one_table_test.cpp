@@ -1,4 +1,4 @@
-// Nothing but the table (support.hpp, domain/support.hpp, any/support.hpp) decides what goes with
+// Nothing but the table (support.hpp, domain/support.hpp, shape/support.hpp) decides what goes with
 // what. Looks for other places: refusals whose words are those of such a decision.
 
 #include <algorithm>

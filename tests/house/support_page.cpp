@@ -116,7 +116,7 @@ class Page {
     tables += file_table();
     tables += build_table();
     return "# What is supported\n\n"
-           "Made from `support.hpp`, `domain/support.hpp` and `any/support.hpp` in "
+           "Made from `support.hpp`, `domain/support.hpp` and `shape/support.hpp` in "
            "`include/plexway` by "
            "`ninja plexway_support_page`;\n"
            "a test of the house compares them. What is not supported is refused with the "

@@ -1,4 +1,4 @@
-// What is asked for while files are read: every cell of the table (any/support.hpp). Every yes
+// What is asked for while files are read: every cell of the table (shape/support.hpp). Every yes
 // gives the domain that it says, every no throws its sentence.
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Domains by lengths alone: what draws and measures in space is refused by the table (support.hpp,
-// any/support.hpp), what does not is right.
+// shape/support.hpp), what does not is right.
 
 #include <algorithm>
 #include <array>

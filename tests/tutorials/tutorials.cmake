@@ -12,7 +12,7 @@ function(plexway_tutorial name)
   add_test(NAME "tutorials/${name}"
     COMMAND "${PLEXWAY_TUTORIAL_PYTHON}" "${PROJECT_SOURCE_DIR}/tests/tutorials/run.py"
       "${PROJECT_SOURCE_DIR}/docs/tutorials/${name}.md" --tool "$<TARGET_FILE:plexway_tool>" ${ARGN})
-  set_tests_properties("tutorials/${name}" PROPERTIES LABELS cli TIMEOUT 600)
+  set_tests_properties("tutorials/${name}" PROPERTIES LABELS tool TIMEOUT 600)
 endfunction()
 
 plexway_tutorial(first-distance)

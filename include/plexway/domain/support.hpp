@@ -5,8 +5,8 @@
 
 /// @file
 /// Why something does not go together, and what domains themselves are asked.
-// The lowest part of the one table of what goes with what; support.hpp and any/support.hpp are the
-// others.
+// The lowest part of the one table of what goes with what; support.hpp and shape/support.hpp are
+// the others.
 namespace plexway {
 
 /// Why not, each in one sentence that says what to do instead. `X(name, sentence)`.

@@ -26,7 +26,7 @@ namespace plexway::io {
 /// What a domain's rows are handed over in.
 template <class D>
 struct RowNumber {
-  /// Its own numbers; double where they are hidden (any/pairs.hpp).
+  /// Its own numbers; double where they are hidden (shape/pairs.hpp).
   using Type = RealOf<D>;
 };
 /// The same.
@@ -88,7 +88,7 @@ PairsReport write_rows(const PairsRequest& request, std::span<const RowOutput<Re
       request, journal, sync, [&](const PairsRequest& missing) { return solve(missing, sink); });
 }
 
-/// The same by `all_pairs`. Any domain that it takes: AnyDomain with any/pairs.hpp.
+/// The same by `all_pairs`. Any domain that it takes: AnyDomain with shape/pairs.hpp.
 template <class E, class D>
 PairsReport write_pairs(const E& executor, const D& domain, const PairsRequest& request,
                         std::span<const RowOutput<RowReal<D>>> outputs, BlockJournal& journal) {

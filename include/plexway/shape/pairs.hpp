@@ -6,7 +6,7 @@
 #include <plexway/io/write_pairs.hpp>
 #include <plexway/pairs/all_pairs.hpp>
 
-// Distance matrices of a domain whose kind and precision are hidden: see apps/all_pairs.hpp. With
+// Distance matrices of a domain whose kind and precision are hidden: see pairs/all_pairs.hpp. With
 // this io::write_pairs and io::write_near_pairs take it, too.
 
 namespace plexway {

@@ -53,8 +53,8 @@ inline bool names_nothing(const PointSource& point) {
 /// Any source answers two questions: how far are the vertices of a simplex from it, and is it seen
 /// through a hinge whole, clipped or not at all. A point is a virtual source. A segment is a
 /// virtual source far behind it, so far that its light is parallel, with its two ends as limits of
-/// that light (propagate/saddle_label.hpp): seen from beyond an end the path bends there. So both
-/// answers are those of the step that all executors share.
+/// that light (labels/surface/saddle_label.hpp): seen from beyond an end the path bends there. So
+/// both answers are those of the step that all executors share.
 using Source = std::variant<PointSource, VertexSource, BallSource, CurveSource, SimplexSource>;
 
 }  // namespace plexway

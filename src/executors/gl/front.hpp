@@ -46,8 +46,9 @@ struct Cell {
 };
 
 /// The labels of a propagation and the queues in which they wait, on the device: who may write
-/// where, and round after round until none waits. The rounds are those of executors/rounds.hpp, so
-/// that the result is a matter of what is offered. The rule is a shader of the owner's.
+/// where, and round after round until none waits. The rounds are those of
+/// executors/threads/rounds.hpp, so that the result is a matter of what is offered. The rule is a
+/// shader of the owner's.
 class Front {
  public:
   Front();

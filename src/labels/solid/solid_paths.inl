@@ -1,7 +1,7 @@
 // The path that a label of a solid describes: a string from the virtual source S around reflex
 // edges to a point, pulled taut. One text for C++ (the body of SolidPaths<Real>, see
 // solid_paths.hpp) and GLSL, after solid_sight.inl. Before it stand also
-//   Label               a SolidLabel (propagate/solid_label.hpp), and `label_bends`, how many
+//   Label               a SolidLabel (labels/solid/solid_label.hpp), and `label_bends`, how many
 //   none                no edge
 //   unfolded_door       with an edge added: the door of a label whose S was turned about it
 //   beside_door         with a tetrahedron added: of one whose strings begin in that, beside S
