@@ -44,7 +44,6 @@ struct WorkspaceState {
   std::vector<Real> vertex;                       ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;               ///< its labels
   std::shared_ptr<SolidStrings> strings;          ///< in solids: strings/solid_strings.hpp
-  std::shared_ptr<MixedStrings> media;            ///< in mixed domains: strings/mixed_strings.hpp
   std::vector<Index> corners;                     ///< around one vertex
   std::unique_ptr<LoweringRooms<Real>> lowering;  ///< read_out_edges
   ///@{
@@ -53,6 +52,7 @@ struct WorkspaceState {
   std::vector<WorkspaceState> parts;
   std::vector<Real> offered;
   ///@}
+  std::shared_ptr<MixedStrings> media;  ///< likewise, by strings: strings/mixed_strings.hpp
 
   /// Room for a front and marks over so many simplices and a sentinel behind them; all unreached
   /// but the sentinel, which nothing can improve.

@@ -35,7 +35,7 @@ bool MediaSolver::solve(std::span<const MediaSource> sources, const Limits& limi
   sources_ = sources;
   counts_ = {};
   seed();
-  while (!queue_.empty()) {
+  while (!queue_.empty() || go_by_edges()) {
     std::pop_heap(queue_.begin(), queue_.end());
     const Offer next = queue_.back();
     queue_.pop_back();
@@ -50,6 +50,26 @@ bool MediaSolver::solve(std::span<const MediaSource> sources, const Limits& limi
     expand(next.node, Label(*found));
   }
   return true;
+}
+
+// What no string came to, though one came to a neighbour: along the edge. False if there is
+// nothing.
+bool MediaSolver::go_by_edges() {
+  for (Index node = 0; node < space_->nodes(); ++node) {
+    const Label label = nodes_[node].best();
+    if (label.chain == none) continue;
+    for (const Index other : space_->nodes_at(point_of(node)))
+      for (const Index w : space_->neighbours(other)) {
+        const Index to = space_->media()[medium_of(other)].first_node + w;
+        if (best_[point_of(to)] < unreached) continue;
+        prepared_ = false;
+        from_ = node;
+        go_by_corner(node, label, to);
+        puller_.pull(attempt_.string);
+        accept(attempt_, to);
+      }
+  }
+  return !queue_.empty();
 }
 
 // A root for each medium that a source is in.
@@ -182,8 +202,9 @@ void MediaSolver::prepare(Index node, const Label& label) {
   a.legs.clear();
   for (std::size_t i = 0; i <= n; ++i)
     a.legs.push_back({a.string.corner(i), a.string.corner(i + 1), true});
-  for (std::size_t i = 0; i <= n; ++i)
-    a.legs[i] = {end_of_leg(a, i, i + 1, node), end_of_leg(a, i + 1, i, node), true};
+  for (const bool again : {false, true})  // then ends know the sides of cracks from each other
+    for (std::size_t i = 0; i <= n && (!again || n > 0); ++i)
+      a.legs[i] = {end_of_leg(a, i, i + 1, node), end_of_leg(a, i + 1, i, node), true};
 }
 
 // What a string that goes on through a place at the end of another one is at least as long as.
@@ -235,13 +256,18 @@ MediaSolver::Outcome MediaSolver::attempt(Index from, const Label& label, Index 
 }
 
 // Straight on from the point itself, along the edge.
-void MediaSolver::offer_corner(Index from, const Label& label, Index to) {
-  ++counts_.corners;
+void MediaSolver::go_by_corner(Index from, const Label& label, Index to) {
   const Index p = point_of(from), door = space_->door(space_->corner(p), medium_of(to));
   prepare(from, label);
   attempt_ = base_;
   attempt_.string.to = at(to);
   append(attempt_, door, space_->point(p));
+}
+
+// And what is shorter past it.
+void MediaSolver::offer_corner(Index from, const Label& label, Index to) {
+  ++counts_.corners;
+  go_by_corner(from, label, to);
   Outcome outcome = settle(attempt_, to, unreached);
   if (outcome != Outcome::longer) outcome = improve(attempt_, to, outcome);
   if (outcome == Outcome::free) accept(attempt_, to);
@@ -257,7 +283,12 @@ void MediaSolver::append(Attempt& a, Index door, const Point& toward) {
   a.string.at.push_back(std::clamp(dot(d, p->along), p->low, p->high));
   a.string.wide.push_back(dot(d, p->wide));
   a.string.slowness.push_back(slowness(space_->medium_behind(door)));
-  a.legs.push_back({from, from, false});
+  // From where it is free: in that medium beside the point, which tells the side of a crack.
+  const Index m = space_->medium_behind(door), n = space_->node(point_of(from_), m);
+  const auto& room = space_->media()[m].room;
+  const Point beside =
+      room && n != none ? room->beside(space_->media()[m].in_room(n), toward, toward) : from;
+  a.legs.push_back({beside, beside, false});
 }
 
 const Place* MediaSolver::place(Index number) {
@@ -284,7 +315,12 @@ Point MediaSolver::end_of_leg(const Attempt& a, std::size_t corner, std::size_t 
     return root.node != none ? medium.room->beside(medium.in_room(root.node), toward, free)
                              : root.beside;
   }
-  return space_->beside(place_of(a, corner - 1), m, a.string.points[corner - 1], toward, free);
+  const Index q = place_of(a, corner - 1);
+  const Point& at = a.string.points[corner - 1];
+  if (space_->kind(q) != Kind::patch) return space_->beside(q, m, at, toward, free);
+  // On one side of a crack through the plane, for both legs.
+  const Point side = at + (a.legs[corner - 1].from - at) + (a.legs[corner].to - at);
+  return space_->beside(q, m, at, toward, side);
 }
 
 // Instead of places from `begin` to `end` others, at a point.

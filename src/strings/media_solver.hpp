@@ -91,12 +91,14 @@ class MediaSolver {
   using Spot = std::array<double, 2>;
 
   void seed();
+  bool go_by_edges();
   void expand(Index node, const Label& label);
   void offer_through(Index node, const Label& label, Index to);
   void offer_edge(Index node, const Label& label, Index to, double found);
   void prepare(Index node, const Label& label);
   Outcome offer(Index from, const Label& label, Index to, Index door);
   [[nodiscard]] double bound(Index from, const Label& label, Index to, Index door) const;
+  void go_by_corner(Index from, const Label& label, Index to);
   void offer_corner(Index from, const Label& label, Index to);
   Outcome attempt(Index from, const Label& label, Index to, Index door);
   Outcome settle(Attempt& a, Index to, double least);
@@ -167,7 +169,7 @@ class MediaSolver {
   Point attached_ = {0, 0, 0}, attached_beside_ = {0, 0, 0};
   Index attached_medium_ = none;
   bool prepared_ = false;
-  double behind_ = .1;
+  double behind_ = .5;
   Counts counts_;
 };
 

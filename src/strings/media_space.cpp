@@ -687,10 +687,15 @@ Point MediaSpace::beside(Index place, Index medium, const Point& at, const Point
         if (std::abs(off) > 3 * aside() || share < -3 * aside() || share > length + 3 * aside())
           continue;
         const double st = wu / length, su = -wt / length;
-        const double step = 1e-4 * std::min(1., length), mt = at0 + wt / 2 + step * st,
-                     mu = au + wu / 2 + step * su;
-        const double by = (holds(p, mt, mu, 0) ? 3 : -3) * aside();
-        in = in + by * (st * plane.along + su * plane.wide);
+        const double step = 1e-4 * std::min(1., length);
+        const auto is_patch = [&](double by) {
+          return holds(p, at0 + wt / 2 + by * st, au + wu / 2 + by * su, 0);
+        };
+        const Point across = st * plane.along + su * plane.wide;
+        const bool ahead = is_patch(step);
+        // At a crack it is on both sides.
+        const bool forward = ahead && is_patch(-step) ? dot(free - at, across) > 0 : ahead;
+        in = in + (forward ? 3 : -3) * aside() * across;
       }
       const double side = !m.is_solid ? (dot(m.up, p.normal) >= 0 ? 1 : -1)
                           : p.above == medium && p.below == medium

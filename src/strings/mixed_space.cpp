@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <utility>
 #include <variant>
@@ -23,17 +22,16 @@ class MixedSpace::Builder {
  public:
   explicit Builder(const MixedComplex<Real>& domain) : domain_(domain) {}
 
-  // The parts, if strings go there.
-  std::optional<strings::Parts> parts() {
-    if (!has_solid() || !place()) return {};
+  bool takes_strings() {
+    if (!has_solid() || !place()) return false;
     for (const auto& piece : domain_.pieces())
       if (!std::visit([&](const auto& complex) { return add(piece, complex); },
                       domain_.complex(piece)))
-        return {};
+        return false;
     merge_speeds();
-    if (is_one_solid() || facets() > most_facets) return {};
-    return std::move(parts_);
+    return !is_one_solid() && facets() <= most_facets;
   }
+  [[nodiscard]] const strings::Parts& parts() const { return parts_; }
   std::vector<Index> points() { return std::move(point_); }
   std::vector<Range> ranges() const {
     std::vector<Range> ranges;
@@ -257,14 +255,13 @@ std::shared_ptr<const MixedSpace> MixedSpace::of(const MixedComplex<Real>& domai
   return domain.space().template get<MixedSpace>([&] {
     auto space = std::make_shared<MixedSpace>();
     Builder<Real> builder(domain);
-    if (const auto parts = builder.parts()) {
-      try {
-        space->media = std::make_unique<const strings::MediaSpace>(*parts);
-      } catch (const InputError&) {  // solids that overlap are no space
-        return std::shared_ptr<const MixedSpace>(std::move(space));
-      }
+    if (builder.takes_strings()) {
       space->point = builder.points();
       space->pieces_ = builder.ranges();
+      try {
+        space->media = std::make_unique<const strings::MediaSpace>(builder.parts());
+      } catch (const InputError&) {  // solids that overlap are no space
+      }
     }
     return std::shared_ptr<const MixedSpace>(std::move(space));
   });
