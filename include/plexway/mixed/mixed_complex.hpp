@@ -74,7 +74,8 @@ class MixedComplex {
     [[nodiscard]] Index simplex(Index of_piece) const;
   };
 
-  /// Adds a piece. `positions`, one a vertex, are needed to weld by nearness only. Throws
+  /// Adds a piece. `positions`, one a vertex, say where it lies: they are needed to weld by
+  /// nearness, and where all pieces have some, paths through solids are exact. Throws
   /// UsageError for positions of another count, a solid without coordinates, or more than 2^32 - 2
   /// vertices or simplices in all.
   Piece add(Complex complex, std::span<const std::array<double, 3>> positions = {});
