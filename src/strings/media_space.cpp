@@ -40,6 +40,29 @@ void add(std::vector<Index>& list, Index item) {
 
 }  // namespace
 
+std::vector<Index> covered_by(const Parts& parts) {
+  std::vector<std::pair<Triple, Index>> faces;
+  for (Index f = 0; f < parts.faces.size(); ++f) faces.push_back({sorted(parts.faces[f]), f});
+  std::sort(faces.begin(), faces.end());
+  std::vector<Index> by(parts.faces.size(), none);
+  if (faces.empty()) return by;
+  constexpr double rounding = 1e-9;
+  for (Index t = 0; t < parts.tets.size(); ++t)
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& c = parts.tets[t];
+      const std::pair<Triple, Index> key = {
+          sorted({c[(i + 1) % 4], c[(i + 2) % 4], c[(i + 3) % 4]}), 0};
+      for (auto f = std::lower_bound(faces.begin(), faces.end(), key);
+           f != faces.end() && f->first == key.first; ++f) {
+        Index& best = by[f->second];
+        const double least =
+            best == none ? parts.slow_faces[f->second] * (1 + rounding) : parts.slow_tets[best];
+        if (best == none ? parts.slow_tets[t] <= least : parts.slow_tets[t] < least) best = t;
+      }
+    }
+  return by;
+}
+
 struct MediaSpace::Builder {
   static constexpr double same = 1e-7;  // directions and normals differ by less
 
@@ -49,6 +72,9 @@ struct MediaSpace::Builder {
   const Parts& parts;
   std::vector<Point>& points = space.points_;
   std::vector<Index> medium_of_tet, medium_of_face, medium_of_edge;
+  std::vector<Index> covered;  // by faces: covered_by
+  std::vector<Triple> faces;   // the others
+  std::vector<double> slow_faces;
 
   // A triangle between two media, or of a sheet.
   struct Interface {
@@ -82,9 +108,10 @@ struct MediaSpace::Builder {
   void number_simplices() {
     auto& all = space.simplices_;
     for (Index t = 0; t < parts.tets.size(); ++t) all.push_back({parts.tets[t], medium_of_tet[t]});
-    for (Index f = 0; f < parts.faces.size(); ++f) {
+    for (Index f = 0, sheet = 0; f < parts.faces.size(); ++f) {
       const auto& c = parts.faces[f];
-      all.push_back({{c[0], c[1], c[2], none}, medium_of_face[f]});
+      const Index medium = covered[f] == none ? medium_of_face[sheet++] : medium_of_tet[covered[f]];
+      all.push_back({{c[0], c[1], c[2], none}, medium});
     }
     for (Index e = 0; e < parts.edges.size(); ++e)
       all.push_back({{parts.edges[e][0], parts.edges[e][1], none, none}, medium_of_edge[e]});
@@ -135,6 +162,12 @@ struct MediaSpace::Builder {
   }
 
   void find_media() {
+    covered = covered_by(parts);
+    for (Index f = 0; f < parts.faces.size(); ++f)
+      if (covered[f] == none) {
+        faces.push_back(parts.faces[f]);
+        slow_faces.push_back(parts.slow_faces[f]);
+      }
     find_solids();
     find_sheets();
     find_wires();
@@ -281,15 +314,15 @@ struct MediaSpace::Builder {
   }
   void find_sheets() {
     const std::size_t first = space.media_.size();
-    find_flat(parts.faces, parts.slow_faces, medium_of_face);
+    find_flat(faces, slow_faces, medium_of_face);
     std::vector<std::vector<Index>> members(space.media_.size() - first);
-    for (Index f = 0; f < parts.faces.size(); ++f) members[medium_of_face[f] - first].push_back(f);
+    for (Index f = 0; f < this->faces.size(); ++f) members[medium_of_face[f] - first].push_back(f);
     for (std::size_t m = 0; m < members.size(); ++m)
       build_room(space.media_[first + m], members[m]);
   }
   // What is not convex has walls: those of a prism that it is the bottom of.
   void build_room(Medium& sheet, const std::vector<Index>& faces) {
-    sheet.up = normal_of(parts.faces[faces[0]]);
+    sheet.up = normal_of(this->faces[faces[0]]);
     if (faces.size() == 1 || is_convex(faces)) return;
     const auto count = static_cast<Index>(sheet.points.size());
     std::vector<Point> corners;
@@ -297,7 +330,7 @@ struct MediaSpace::Builder {
       for (const Index p : sheet.points) corners.push_back(points[p] + height * sheet.up);
     std::vector<std::array<Index, 4>> tets;
     for (const Index f : faces) {
-      Triple t = sorted(parts.faces[f]);
+      Triple t = sorted(this->faces[f]);
       for (Index& v : t)
         v = static_cast<Index>(std::lower_bound(sheet.points.begin(), sheet.points.end(), v) -
                                sheet.points.begin());
@@ -318,7 +351,7 @@ struct MediaSpace::Builder {
     std::vector<std::pair<Edge, Index>> edges;  // and the corner opposite
     for (const Index f : faces)
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto& t = parts.faces[f];
+        const auto& t = this->faces[f];
         edges.push_back({edge_of(t[k], t[(k + 1) % 3]), t[(k + 2) % 3]});
       }
     std::sort(edges.begin(), edges.end());
@@ -339,8 +372,8 @@ struct MediaSpace::Builder {
 
   void find_interfaces() {
     std::map<Triple, std::vector<Index>> sheets;
-    for (Index f = 0; f < parts.faces.size(); ++f)
-      sheets[sorted(parts.faces[f])].push_back(medium_of_face[f]);
+    for (Index f = 0; f < this->faces.size(); ++f)
+      sheets[sorted(this->faces[f])].push_back(medium_of_face[f]);
     each_face([&](const Triple& face, const std::vector<Index>& tets) {
       const auto sheet = sheets.find(face);
       const bool two = tets.size() == 2 && medium_of_tet[tets[0]] != medium_of_tet[tets[1]];
@@ -421,13 +454,13 @@ struct MediaSpace::Builder {
           add(l->media, medium_of_tet[t]);
           l->wedges.push_back({medium_of_tet[t], wedge_of(t, l->end)});
         }
-    for (Index f = 0; f < parts.faces.size(); ++f)
+    for (Index f = 0; f < this->faces.size(); ++f)
       for (std::size_t k = 0; k < 3; ++k)
-        if (Line* l = line(parts.faces[f][k], parts.faces[f][(k + 1) % 3])) {
+        if (Line* l = line(this->faces[f][k], this->faces[f][(k + 1) % 3])) {
           add(l->media, medium_of_face[f]);
           const Point& up = space.media_[medium_of_face[f]].up;
           const Point &a = points[l->end[0]], along = strings::unit(points[l->end[1]] - a),
-                      off = points[parts.faces[f][(k + 2) % 3]] - a,
+                      off = points[this->faces[f][(k + 2) % 3]] - a,
                       in = strings::unit(off - dot(off, along) * along);
           l->wedges.push_back({medium_of_face[f], {{in, up}, strings::unit(in + up)}});
         }

@@ -21,6 +21,10 @@ struct Parts {
   std::vector<double> slow_tets, slow_faces, slow_edges;
 };
 
+/// Of each face the tetrahedron it is a face of that is as fast, so that no string needs the face;
+/// none: there is no such.
+[[nodiscard]] std::vector<Index> covered_by(const Parts& parts);
+
 /// A medium is what a leg runs through: solids of one speed that share faces; faces of one speed in
 /// one plane, edges of one speed in one line. Each vertex of a medium is a *node*, so that points
 /// where media meet have several.

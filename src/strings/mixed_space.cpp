@@ -212,8 +212,9 @@ class MixedSpace::Builder {
       while (facet[f] != f) f = facet[f] = facet[facet[f]];
       return f;
     };
+    const std::vector<Index> covered = strings::covered_by(parts_);
     for (Index f = 0; f < facet.size(); ++f)
-      for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < 3 && covered[f] == none; ++k) {
         const Index a = parts_.faces[f][k], b = parts_.faces[f][(k + 1) % 3];
         sides.push_back({{std::min(a, b), std::max(a, b)}, f, parts_.faces[f][(k + 2) % 3]});
       }
