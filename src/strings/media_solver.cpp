@@ -148,8 +148,9 @@ void MediaSolver::offer_through(Index node, const Label& label, Index to) {
     if (space_->door(q, m) == none) continue;
     const Index door = space_->door(q, n);
     if (door == none) continue;
+    // Between two solids a row is the border of a patch, on to which strings slide.
     if (space_->kind(q) == Kind::row && media[m].is_solid && media[n].is_solid &&
-        space_->last_door(q) - space_->first_door(q) < 3)
+        !space_->patches_at(q).empty() && space_->last_door(q) - space_->first_door(q) < 3)
       continue;
     if (offer(node, label, to, door) == Outcome::free)
       found = std::min(found, offset(attempt_) + attempt_.string.length);

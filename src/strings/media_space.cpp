@@ -435,6 +435,28 @@ struct MediaSpace::Builder {
     }
   }
 
+  // Edges where solids meet that have no face in common there.
+  void find_touching() {
+    std::vector<Edge> inside;
+    for (const Interface& i : interfaces)
+      for (std::size_t k = 0; k < 3; ++k)
+        inside.push_back(edge_of(i.corner[k], i.corner[(k + 1) % 3]));
+    std::sort(inside.begin(), inside.end());
+    std::vector<std::pair<Edge, Index>> at;  // and the medium
+    for (Index t = 0; t < parts.tets.size(); ++t)
+      for (const auto& e : tet_edge_ends) {
+        const Edge edge = edge_of(parts.tets[t][e[0]], parts.tets[t][e[1]]);
+        if (space.nodes_at(edge[0]).size() > 1 && space.nodes_at(edge[1]).size() > 1 &&
+            !std::binary_search(inside.begin(), inside.end(), edge))
+          at.push_back({edge, medium_of_tet[t]});
+      }
+    std::sort(at.begin(), at.end());
+    for (std::size_t i = 1; i < at.size(); ++i)
+      if (at[i].first == at[i - 1].first && at[i].second != at[i - 1].second &&
+          line_at.insert({at[i].first, static_cast<Index>(lines.size())}).second)
+        lines.push_back({at[i].first, {}, {}, {}, false, none});
+  }
+
   void find_lines() {
     for (Index e = 0; e < parts.edges.size(); ++e) {
       const Edge edge = edge_of(parts.edges[e][0], parts.edges[e][1]);
@@ -443,7 +465,7 @@ struct MediaSpace::Builder {
       lines[at->second].is_wire = true;
       add(lines[at->second].media, medium_of_edge[e]);
     }
-    // Where sheets cross what is no border.
+    find_touching();
     const auto line = [&](Index a, Index b) -> Line* {
       const auto at = line_at.find(edge_of(a, b));
       return at == line_at.end() ? nullptr : &lines[at->second];
