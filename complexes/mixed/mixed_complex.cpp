@@ -73,6 +73,7 @@ typename MixedComplex<Real>::Piece MixedComplex<Real>::add(
   if (summary_.vertices + vertices >= none || summary_.simplices + simplices >= none)
     throw UsageError("a mixed domain holds at most 2^32 - 2 vertices and simplices");
   is_joined_ = false;
+  space_ = {};
   pieces_.push_back({static_cast<Index>(pieces_.size()), static_cast<Index>(summary_.vertices),
                      static_cast<Index>(vertices), static_cast<Index>(summary_.simplices),
                      static_cast<Index>(simplices)});
@@ -151,6 +152,7 @@ std::size_t MixedComplex<Real>::weld(const Piece& a, const Piece& b,
     summary_.hinges[0] += hinge;
   }
   is_joined_ = false;
+  space_ = {};
   requests_.push_back({{a.number, b.number}, options});
   for (const auto& [v, w] : pairs) outer_welds_.push_back({a.first_vertex + v, b.first_vertex + w});
   summary_.welded_vertices += inside.size();
@@ -177,7 +179,7 @@ std::size_t MixedComplex<Real>::bytes() const {
     sum += std::visit([](const auto& complex) { return complex.bytes(); }, c);
   for (const auto& p : positions_) sum += p.capacity() * sizeof(p[0]);
   if (is_joined_ && joined_) sum += joined_->bytes();
-  return sum;
+  return sum + space_.bytes();
 }
 
 template class MixedComplex<float>;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,6 +19,7 @@
 #include "executors/threads/owned_work.hpp"
 #include "executors/threads/team.hpp"
 #include "labels/mixed/mixed_propagation.hpp"
+#include "strings/mixed_strings.hpp"
 
 namespace plexway {
 
@@ -194,6 +196,12 @@ void solve_points(const E& executor, const MixedComplex<Real>& domain,
     const auto& piece = domain.pieces()[number];
     check_source(
         own, {piece.vertices, piece.simplices, "simplex", corners_of<Real>(domain.complex(piece))});
+  }
+  if (auto space = MixedSpace::of(domain); space->media) {
+    auto& strings = kept.state().media;
+    if (!strings) strings = std::make_shared<MixedStrings>();
+    strings->solve(domain, std::move(space), sources, options, field);
+    return;
   }
   const auto check_cracks = [&](const MixedComplex<Real>& solved,
                                 std::span<const PointSource> there) {

@@ -1,6 +1,7 @@
 #include <plexway/solve/workspace.hpp>
 
 #include "labels/workspace_state.hpp"
+#include "strings/mixed_strings.hpp"
 #include "strings/solid_strings.hpp"
 
 namespace plexway {
@@ -20,7 +21,8 @@ Workspace<Real>& Workspace<Real>::operator=(Workspace&&) noexcept = default;
 template <class Real>
 std::size_t Workspace<Real>::bytes() const {
   if (!state_) return 0;
-  return state_->bytes() + (state_->strings ? state_->strings->bytes() : 0);
+  return state_->bytes() + (state_->strings ? state_->strings->bytes() : 0) +
+         (state_->media ? state_->media->bytes() : 0);
 }
 
 template <class Real>

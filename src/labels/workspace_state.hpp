@@ -22,6 +22,7 @@
 
 namespace plexway {
 
+class MixedStrings;
 class SolidStrings;
 
 /// All that a propagation changes, in the open.
@@ -51,6 +52,7 @@ struct WorkspaceState {
   std::vector<WorkspaceState> parts;
   std::vector<Real> offered;
   ///@}
+  std::shared_ptr<MixedStrings> media;  ///< likewise, by strings: strings/mixed_strings.hpp
 
   /// Room for a front and marks over so many simplices and a sentinel behind them; all unreached
   /// but the sentinel, which nothing can improve.

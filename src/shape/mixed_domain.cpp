@@ -65,17 +65,18 @@ class Adding {
       for (const Index v : simplices[s]) inner[v] = 0;
     }
     Added piece{part, {}};
-    std::vector<std::array<double, 3>> positions;
+    std::vector<std::array<double, 3>> positions, timed;
     for (Index v = 0; v < inner.size(); ++v) {
       if (inner[v] == none) continue;
       inner[v] = static_cast<Index>(piece.outer.size());
       piece.outer.push_back(v);
       const auto& p = shape_.positions[v];
-      positions.push_back({p[0] / speed, p[1] / speed, p[2] / speed});
+      positions.push_back(p);
+      timed.push_back({p[0] / speed, p[1] / speed, p[2] / speed});
     }
     for (auto& row : own)
       for (Index& v : row) v = inner[v];
-    const auto at = made_.complex.add(typename ComplexOf<Real, N>::Type(positions, own), positions);
+    const auto at = made_.complex.add(typename ComplexOf<Real, N>::Type(timed, own), positions);
     for (Index v = 0; v < piece.outer.size(); ++v)
       if (made_.vertex[piece.outer[v]] == none) made_.vertex[piece.outer[v]] = at.vertex(v);
     for (Index s = 0; s < own.size(); ++s) made_.simplex[first + numbers[s]] = at.simplex(s);

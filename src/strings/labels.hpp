@@ -24,8 +24,9 @@ struct Label {
 struct VertexLabels {
   static constexpr std::size_t most = 2;
   static constexpr std::size_t remembered = 6;
-  std::array<Label, most> labels;       ///< by their distance
-  std::array<Index, remembered> tried;  ///< chains of late
+  static constexpr double same_side = .99;  ///< cosine between the last legs of two strings
+  std::array<Label, most> labels;           ///< by their distance
+  std::array<Index, remembered> tried;      ///< chains of late
   Index next = 0;
 
   VertexLabels() { tried.fill(none); }
@@ -48,15 +49,15 @@ struct VertexLabels {
     next = (next + 1) % remembered;
   }
   /// Strings as long as this, that end in this direction, are of no use.
-  [[nodiscard]] double limit(double behind, const Point& last) const {
+  [[nodiscard]] double limit(double behind, const Point& last, double cosine = same_side) const {
     double limit = std::min(best().distance + behind, labels[most - 1].distance);
     for (const Label& l : labels)
-      if (alike(l.last, last)) limit = std::min(limit, l.distance);
+      if (dot(l.last, last) >= cosine) limit = std::min(limit, l.distance);
     return limit;
   }
   /// Takes a string; false if it is of no use.
-  bool take(const Label& label, double behind) {
-    if (!(label.distance < limit(behind, label.last))) return false;
+  bool take(const Label& label, double behind, double cosine = same_side) {
+    if (!(label.distance < limit(behind, label.last, cosine))) return false;
     // Those that are longer and alike, or too long now, make room.
     std::array<Label, most> kept;
     std::size_t n = 0;
@@ -67,18 +68,12 @@ struct VertexLabels {
         placed = true;
         if (n < most) kept[n++] = label;
       }
-      const bool after = placed && (l.chain == label.chain || alike(l.last, label.last));
+      const bool after = placed && (l.chain == label.chain || dot(l.last, label.last) >= cosine);
       if (n < most && l.chain != none && !after && l.distance < longest) kept[n++] = l;
     }
     if (!placed && n < most) kept[n] = label;
     labels = kept;
     return true;
-  }
-
- private:
-  static bool alike(const Point& a, const Point& b) {
-    constexpr double cosine = .99;
-    return dot(a, b) >= cosine;
   }
 };
 

@@ -18,7 +18,8 @@ inline Point unit(const Point& a) {
   return length > 0 ? 1 / length * a : a;
 }
 
-/// A row of edges between the same two planes of the boundary, or a single point (low = high).
+/// A row of edges between the same two planes of the boundary, a plane between two media, or a
+/// single point (low = high).
 struct Place {
   Point origin, along;  ///< of points origin + t along, `along` a unit vector
   double low, high;     ///< the least and the greatest t
@@ -28,10 +29,13 @@ struct Place {
   Index vertex = none;  ///< of a single point
   Index end[2] = {none, none};            ///< vertices at `low` and `high`
   Index first_wedge = 0, last_wedge = 0;  ///< where tetrahedra only touch: Boundary::wedges
+  Point wide = {0, 0, 0};                 ///< of a plane: square to `along`, unit
+  bool is_plane = false;                  ///< points origin + t along + u wide, all t and u
 
   /// Strings that come to it never lift off: a vertex, or an edge where tetrahedra only touch.
   [[nodiscard]] bool holds() const { return angle == 0; }
   [[nodiscard]] Point at(double t) const { return origin + t * along; }
+  [[nodiscard]] Point at(double t, double u) const { return origin + t * along + u * wide; }
   /// Off the ends, where other faces begin.
   [[nodiscard]] Point off_ends(double t, double by) const {
     const double off = std::min(3 * by, (high - low) / 2);

@@ -5,10 +5,24 @@
 
 namespace plexway::strings {
 
+namespace {
+
 template <class Real>
-SolidSpace::SolidSpace(const TetMesh<Real>& mesh) : near_(tolerances_of(mesh)) {
-  points_.reserve(mesh.points().size());
-  for (const auto& p : mesh.points()) points_.push_back({double(p.x), double(p.y), double(p.z)});
+std::vector<Point> points_of(const TetMesh<Real>& mesh) {
+  std::vector<Point> points;
+  points.reserve(mesh.points().size());
+  for (const auto& p : mesh.points()) points.push_back({double(p.x), double(p.y), double(p.z)});
+  return points;
+}
+
+}  // namespace
+
+template <class Real>
+SolidSpace::SolidSpace(const TetMesh<Real>& mesh) : SolidSpace(mesh, points_of(mesh)) {}
+
+template <class Real>
+SolidSpace::SolidSpace(const TetMesh<Real>& mesh, std::vector<Point> points)
+    : points_(std::move(points)), near_(tolerances_of(mesh)) {
   boundary_ = find_boundary(mesh, points_, near_);
   sight_ = Sight(boundary_, points_, near_);
   join(mesh);
@@ -75,8 +89,6 @@ void SolidSpace::find_inside(const TetMesh<Real>& mesh) {
   }
 }
 
-// Of the parts of the solid at `p` that hold a direction the one that holds the second one best;
-// where none holds the first, of all of them.
 template <class Part>
 Point SolidSpace::into(std::span<const Part> parts, const Point& p, const Point& toward,
                        const Point& free) const {
@@ -122,7 +134,11 @@ std::size_t SolidSpace::bytes() const {
          of(begin_) + of(neighbours_) + of(faces_at_) + of(slot_) + of(inside_) + of(cones_);
 }
 
+template Point SolidSpace::into(std::span<const Boundary::Wedge>, const Point&, const Point&,
+                                const Point&) const;
 template SolidSpace::SolidSpace(const TetMesh<float>&);
 template SolidSpace::SolidSpace(const TetMesh<double>&);
+template SolidSpace::SolidSpace(const TetMesh<float>&, std::vector<Point>);
+template SolidSpace::SolidSpace(const TetMesh<double>&, std::vector<Point>);
 
 }  // namespace plexway::strings

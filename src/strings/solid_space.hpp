@@ -19,6 +19,9 @@ class SolidSpace {
   /// Cost: linear in the tetrahedra, and n log n in the boundary.
   template <class Real>
   explicit SolidSpace(const TetMesh<Real>& mesh);
+  /// With other points, of the mesh's numbers inside: where several solids share theirs.
+  template <class Real>
+  SolidSpace(const TetMesh<Real>& mesh, std::vector<Point> points);
   SolidSpace(const SolidSpace&) = delete;
   SolidSpace& operator=(const SolidSpace&) = delete;
 
@@ -29,6 +32,7 @@ class SolidSpace {
     return std::span<const Index>(neighbours_)
         .subspan(begin_[vertex], begin_[vertex + 1] - begin_[vertex]);
   }
+  [[nodiscard]] const Boundary& boundary() const { return boundary_; }
   [[nodiscard]] const std::vector<Place>& places() const { return boundary_.places; }
   [[nodiscard]] const Sight& sight() const { return sight_; }
   [[nodiscard]] double aside() const { return near_.aside; }
@@ -43,6 +47,11 @@ class SolidSpace {
   [[nodiscard]] Point beside(const Place& place, double t, const Point& toward,
                              const Point& free) const;
   [[nodiscard]] const Boundary::Face& face(Index number) const { return boundary_.faces[number]; }
+  /// A little off `p` into one of the parts of the solid there: one that has the direction to
+  /// `toward`, if there is such, and of these the one that holds that to `free` best.
+  template <class Part>
+  [[nodiscard]] Point into(std::span<const Part> parts, const Point& p, const Point& toward,
+                           const Point& free) const;
   /// Rows of edges at a vertex: vertex and place.
   [[nodiscard]] std::span<const std::pair<Index, Index>> rows_at(Index vertex) const {
     return of(boundary_.rows_at, vertex);
@@ -75,9 +84,6 @@ class SolidSpace {
   void join(const TetMesh<Real>& mesh);
   template <class Real>
   void find_inside(const TetMesh<Real>& mesh);
-  template <class Part>
-  [[nodiscard]] Point into(std::span<const Part> parts, const Point& p, const Point& toward,
-                           const Point& free) const;
   [[nodiscard]] Point beside_boundary(Index slot, Index vertex, const Point& toward,
                                       const Point& free) const;
 

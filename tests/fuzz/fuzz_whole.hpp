@@ -27,7 +27,7 @@ class Whole {
   void add(const std::vector<std::array<Index, Corners>>& simplices, double speed) {
     if (simplices.empty()) return;
     std::map<Index, Index> number;
-    std::vector<Place> timed;
+    std::vector<Place> timed, at_size;
     std::vector<std::array<Index, Corners>> own = simplices;
     for (auto& simplex : own)
       for (Index& v : simplex) {
@@ -35,6 +35,7 @@ class Whole {
         if (is_new) {
           const Place& at = places_[v];
           timed.push_back({at[0] / speed, at[1] / speed, at[2] / speed});
+          at_size.push_back(at);
           place_.push_back(v);
         }
         v = found->second;
@@ -47,7 +48,7 @@ class Whole {
       else
         return plexway::TetMesh<double>(timed, own);
     }();
-    pieces_.push_back(mixed_.add(complex));
+    pieces_.push_back(mixed_.add(complex, at_size));
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       std::vector<std::array<Index, 2>> pairs;
       for (const auto& [place, own_number] : number)

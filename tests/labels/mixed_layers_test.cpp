@@ -179,8 +179,8 @@ TEST_CASE("two layers of speeds 1 to 2, sources anywhere and a cell off the face
     for (const double near : {0., 1. / 8}) {
       const Errors e = solid.errors_from(solid.vertex(random, near));
       CAPTURE(seed, near, e.mean, e.worst, e.low);
-      CHECK(e.mean < 1e-5);
-      CHECK(e.worst < 3e-3);
+      CHECK(e.mean < 1e-13);
+      CHECK(e.worst < 1e-12);
       CHECK(e.low > -1e-9);
       mean += e.mean / 12;
     }
@@ -196,12 +196,12 @@ TEST_CASE("three layers: a path crosses several faces") {
     const Layered solid({{.3 + .01 * seed, .65 + .02 * seed}, speeds[seed % 4]}, 9, seed + 11);
     const Errors e = solid.errors_from(solid.vertex(random, seed % 2 ? 1. / 9 : 0));
     CAPTURE(seed, e.mean, e.worst, e.low);
-    CHECK(e.mean < 2e-4);
+    CHECK(e.mean < 1e-13);
     CHECK(e.worst < 2e-2);
     CHECK(e.low > -1e-9);
     mean += e.mean / 8;
   }
-  CHECK(mean < 5e-5);
+  CHECK(mean < 1e-13);
 }
 
 }  // namespace mixed_layers_test

@@ -27,7 +27,7 @@ struct CutInTwo {
     std::array<std::map<Index, Index>, 2> number;
     std::vector<MixedComplex<double>::Piece> pieces;
     for (const std::size_t side : {0, 1}) {
-      std::vector<Position> own;
+      std::vector<Position> own, at;
       std::vector<std::array<Index, 4>> corners;
       for (auto tet : tets) {
         double middle = 0;
@@ -36,6 +36,7 @@ struct CutInTwo {
         for (Index& v : tet) {
           const auto [found, is_new] = number[side].try_emplace(v, static_cast<Index>(own.size()));
           if (is_new) {
+            at.push_back(places[v]);
             own.push_back(places[v]);
             for (double& x : own.back()) x /= side == 1 ? speed : 1;
             vertex.push_back(v);
@@ -44,7 +45,7 @@ struct CutInTwo {
         }
         corners.push_back(tet);
       }
-      pieces.push_back(domain.add(TetMesh<double>(own, corners)));
+      pieces.push_back(domain.add(TetMesh<double>(own, corners), at));
     }
     std::vector<std::array<Index, 2>> pairs;
     for (const auto& [v, n] : number[0])

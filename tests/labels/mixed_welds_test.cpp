@@ -170,9 +170,9 @@ TEST_CASE("solids joined by a window") {
       return Welded::of(one, v) ? distance(from, p) : through(from, p, 1, window);
     });
     CAPTURE(from[0], from[1], from[2], e.mean, e.worst, e.low);
-    CHECK(e.mean < 1e-3);
-    CHECK(e.worst < 1e-2);
-    CHECK(e.low > -1e-3);
+    CHECK(e.mean < 1e-7);
+    CHECK(e.worst < 1e-6);
+    CHECK(e.low > -1e-6);
   }
 }
 

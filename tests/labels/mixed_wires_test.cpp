@@ -41,28 +41,45 @@ struct Wired {
     }
   }
 
-  /// Every leg is straight in the block or an edge of a wire.
-  [[nodiscard]] std::vector<double> times(Index source) const {
-    const auto& at = domain.positions;
-    std::vector<double> time(at.size(), infinity);
-    std::vector<Index> ahead(at.size(), none), behind(at.size(), none), open = {source};
+  /// Legs are straight in the block or along wires, which they come to and leave at vertices and at
+  /// `parts` - 1 points of each edge: as many as are needed.
+  [[nodiscard]] std::vector<double> times(Index source, std::size_t parts) const {
+    std::vector<Position> at(domain.positions.begin(), domain.positions.end());
+    const std::size_t vertices = at.size();
+    std::vector<std::array<Index, 2>> edges;  // along wires
     for (const auto& rod : rods)
-      for (Index v = rod.first_vertex; v < rod.first_vertex + rod.vertices; ++v) {
-        if (v > rod.first_vertex) behind[v] = v - 1, ahead[v - 1] = v;
-        open.push_back(v);
+      for (Index v = rod.first_vertex + 1; v < rod.first_vertex + rod.vertices; ++v) {
+        Index last = v - 1;
+        for (std::size_t k = 1; k < parts; ++k) {
+          const double share = double(k) / double(parts);
+          Position p;
+          for (std::size_t i = 0; i < 3; ++i)
+            p[i] = at[v - 1][i] + share * (at[v][i] - at[v - 1][i]);
+          at.push_back(p);
+          edges.push_back({last, Index(at.size() - 1)});
+          last = Index(at.size() - 1);
+        }
+        edges.push_back({last, v});
       }
+    std::vector<std::vector<Index>> beside(at.size());
+    for (const auto& [v, w] : edges) beside[v].push_back(w), beside[w].push_back(v);
+    std::vector<double> time(at.size(), infinity);
+    std::vector<Index> open = {source};
+    for (Index v = solid.vertices; v < at.size(); ++v) open.push_back(v);
     time[source] = 0;
     while (!open.empty()) {
       const auto next = std::min_element(open.begin(), open.end(),
                                          [&](Index v, Index w) { return time[v] < time[w]; });
       const Index u = *next;
-      open.erase(next);
+      *next = open.back();
+      open.pop_back();
       for (Index v = 0; v < solid.vertices; ++v)
         time[v] = std::min(time[v], time[u] + distance(at[u], at[v]));
       for (const Index v : open) time[v] = std::min(time[v], time[u] + distance(at[u], at[v]));
-      for (const Index v : {ahead[u], behind[u]})
-        if (v != none) time[v] = std::min(time[v], time[u] + distance(at[u], at[v]) / c);
+      for (const Index v : beside[u])
+        time[v] = std::min(time[v], time[u] + distance(at[u], at[v]) / c);
     }
+    time.resize(vertices);
     return time;
   }
 
@@ -77,14 +94,15 @@ struct Wired {
 TEST_CASE("wires of any speed in a block") {
   for (const double c : {.5, 1., 2., 5.})
     for (unsigned seed = 0; seed < 3; ++seed) {
-      const Wired wired(8, 40, c, seed);
+      const Wired wired(8, 20, c, seed);
       const Index source = static_cast<Index>(wired.solid.vertices / 2 + 3 + seed);
-      const std::vector<double> times = wired.times(source);
+      const std::vector<double> times = wired.times(source, c > 1 ? 8 : 1);
       const Errors e = errors(wired.domain, source, [&](Index v) { return times[v]; });
       CAPTURE(c, seed, e.mean, e.worst, e.low);
-      CHECK(e.mean < (c > 1 ? 2e-3 : 1e-12));
-      CHECK(e.worst < (c > 1 ? 5e-2 : 1e-9));
-      CHECK(e.low > -1e-9);
+      // Where wires cross, strings of single vertices are lost; and the truth is coarse.
+      CHECK(e.mean < (c > 1 ? 5e-4 : 1e-14));
+      CHECK(e.worst < (c > 1 ? 2e-2 : 1e-12));
+      CHECK(e.low > (c > 1 ? -2e-3 : -1e-12));
     }
 }
 
@@ -101,16 +119,6 @@ TEST_CASE("wires hear of each other at a vertex of a solid that nothing else gai
   CHECK(time(to.vertex(4)) == Approx(1 / 8.).epsilon(1e-12));
   CHECK(time(up.vertex(4)) == Approx(2 / 8.).epsilon(1e-12));
   CHECK(time(out.vertex(2)) == Approx(1 / 8. + 1).epsilon(1e-12));
-}
-
-TEST_CASE("wires in a solid cost few expansions that repeat one") {
-  for (const double c : {1., 2., 5.}) {
-    const Wired wired(16, 100, c, 1);
-    const auto field = solve(Serial{}, wired.domain.complex, PointSource::at(20));
-    CAPTURE(c, field.statistics.expansions, wired.domain.complex.simplex_count());
-    CHECK(2 * field.statistics.expansions < 3 * wired.domain.complex.simplex_count());
-    CHECK(field.statistics.reached_simplices > 0);
-  }
 }
 
 }  // namespace mixed_wires_test

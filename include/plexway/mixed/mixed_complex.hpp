@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include <plexway/common/detail/on_demand.hpp>
 #include <plexway/common/ids.hpp>
 #include <plexway/domain/concept.hpp>
 #include <plexway/solid/tet_mesh.hpp>
@@ -73,7 +74,8 @@ class MixedComplex {
     [[nodiscard]] Index simplex(Index of_piece) const;
   };
 
-  /// Adds a piece. `positions`, one a vertex, are needed to weld by nearness only. Throws
+  /// Adds a piece. `positions`, one a vertex, say where it lies: they are needed to weld by
+  /// nearness, and where all pieces have some, paths through solids are exact. Throws
   /// UsageError for positions of another count, a solid without coordinates, or more than 2^32 - 2
   /// vertices or simplices in all.
   Piece add(Complex complex, std::span<const std::array<double, 3>> positions = {});
@@ -112,6 +114,9 @@ class MixedComplex {
   /// measure them alike, where that makes no corner; null where there are none. Made when first
   /// asked for, after the last change; may be called by several threads.
   [[nodiscard]] std::shared_ptr<const JoinedPieces<Real>> joined() const;
+
+  /// What strings know of it (src/strings); of it as it was when that was first wanted.
+  [[nodiscard]] const OnDemand& space() const { return space_; }
 
   /// Where the vertices of a piece lie, as it was added; may be empty.
   [[nodiscard]] std::span<const std::array<double, 3>> positions(const Piece& piece) const {
@@ -176,6 +181,7 @@ class MixedComplex {
   std::vector<Request> requests_;
   mutable std::shared_ptr<const JoinedPieces<Real>> joined_;
   mutable bool is_joined_ = false;  // or found to need none
+  OnDemand space_;
 };
 
 extern template class MixedComplex<float>;

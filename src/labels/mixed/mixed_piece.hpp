@@ -112,54 +112,12 @@ class MixedPiece {
   virtual Point place(const PointSource&) const { return {}; }
   /// What a length inside the piece is in the domain's unit.
   [[nodiscard]] virtual Real unit() const { return 1; }
-  /// The point that the label of a hinge's member starts at and the way to it, both in the domain's
-  /// unit, and its source. False where not all of the hinge need see it.
-  virtual bool eye(const Member&, Point&, Real&, Index&) const { return false; }
   /// Is a vertex in a straight line from a place of a hinge?
   virtual bool sees(const Member&, int, const HingePlace<Real>&, Index) const { return true; }
   /// Does every point see every other?
   [[nodiscard]] virtual bool sees_all() const { return false; }
 
   [[nodiscard]] virtual bool is_solid() const { return false; }
-  /// A way inside of a solid: from a point, in the domain's unit, around edges at which paths bend.
-  struct String {
-    static constexpr int most = 5;
-    Point from;
-    Real sigma;         // the way to it
-    Index source;       // of the label that tells it
-    bool torn = false;  // is `from` a place of several vertices?
-    int bends = 0;
-    Index edge[most];
-    Real share[most];  // where it bends, from 0 to 1 along each edge
-    bool stays[most];  // the bend is to be kept even where the string lifts off
-  };
-  /// One end of it: a place of a hinge's member, or a vertex.
-  struct StringEnd {
-    const Member* member = nullptr;
-    int dimension = 0;
-    HingePlace<Real> place = {0, 0};
-    Index vertex = none;
-  };
-  /// The edges at which paths bend.
-  [[nodiscard]] virtual Index bend_edges() const { return 0; }
-  [[nodiscard]] virtual std::array<Point, 2> bend_edge(Index) const { return {}; }
-  /// The string of the label at a hinge's member to the simplex's centre, and the shortest that
-  /// labels around a vertex have. False where it begins at no point of the piece.
-  virtual bool string_of(const Member&, String&) const { return false; }
-  virtual bool string_to(Index, String&) const { return false; }
-  /// What must change before a string that was pulled taut is a path. `lifts`: the bend `place` is
-  /// to be left out; `hidden`: `edge` is to be put in before bend `place`, none where it is not
-  /// known.
-  struct Look {
-    enum { free, lifts, hidden } is = free;
-    int place = 0;
-    Index edge = none;
-  };
-  /// `begin` without a member and a vertex: a point of the piece.
-  [[nodiscard]] virtual Look look(const String&, const StringEnd& /*begin*/,
-                                  const StringEnd& /*end*/) const {
-    return {Look::hidden};
-  }
   virtual void vertices_around(Index, std::vector<Index>&) const {}
 
   /// One a vertex, in the caller's order.

@@ -102,15 +102,12 @@ class MixedPropagation {
     field.distance.assign(domain_.vertex_count(), infinity);
     field.label.assign(domain_.vertex_count(), none);
     each([&](Index p) { pieces_[p]->read_out(distances(field, p), labels(field, p)); });
-    crossings_.end(static_cast<Real>(options_.radius));
+    crossings_.end();
     each([&](Index p) {
       crossings_.straighten(p, distances(field, p), labels(field, p));
       for (Index& l : labels(field, p)) l = root(l);
     });
-    do {
-      each([&](Index p) { crossings_.hand_on(p, distances(field, p), labels(field, p)); });
-    } while (crossings_.deliver());
-    field.complete = complete_ && !crossings_.is_cut_short();
+    field.complete = complete_;
     field.statistics = {};
     for (const auto& piece : pieces_) {
       const PropagateStatistics s = piece->statistics();
@@ -414,7 +411,7 @@ class MixedPropagation {
         Vector3<Real> start = {0, 0, 0};
         if (!pieces_[to]->enter_front(domain_.members()[k], front, start)) continue;
         any = true;
-        crossings_.add({posed_[m].source, n, static_cast<std::uint8_t>(side), start}, m, k);
+        crossings_.add({posed_[m].source, n, static_cast<std::uint8_t>(side), start});
       }
     }
     return any;

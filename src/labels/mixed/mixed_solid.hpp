@@ -22,14 +22,10 @@ class MixedSolid final : public MixedPiece<Real> {
  public:
   using typename MixedPiece<Real>::Member;
   using typename MixedPiece<Real>::Found;
-  using typename MixedPiece<Real>::String;
-  using typename MixedPiece<Real>::StringEnd;
-  using typename MixedPiece<Real>::Look;
   using Point = Vector3<Real>;
   using Wave = MixedFront<Real, SolidLabel<Real>>;
   using Rule = SolidRule<Real, Wave>;
   using Label = SolidLabel<Real>;
-  using Taut = typename SolidPaths<Real>::Taut;
 
   MixedSolid(const TetMesh<Real>& mesh, WorkspaceState<Real>& workspace,
              const PropagateOptions& options, Real step)
@@ -146,16 +142,6 @@ class MixedSolid final : public MixedPiece<Real> {
     return unit_ * at;
   }
   Real unit() const override { return unit_; }
-  bool eye(const Member& m, Point& at, Real& sigma, Index& source) const override {
-    if (!sees_all() || !wave_.reached(m.simplex)) return false;
-    // A source that was handed on over a hinge is seen through that hinge only.
-    if (wave_.label(m.simplex).door != none) return false;
-    const auto sight = rule_.seen_from(m.simplex, mesh_.tets()[m.simplex].centre);
-    at = unit_ * sight.eye;
-    sigma = unit_ * sight.sigma;
-    source = wave_.source(m.simplex);
-    return true;
-  }
 
   bool sees(const Member& m, int dimension, const HingePlace<Real>& b,
             Index vertex) const override {
@@ -167,65 +153,6 @@ class MixedSolid final : public MixedPiece<Real> {
   bool sees_all() const override { return !rule_.drops() && mesh_.summary().components == 1; }
 
   bool is_solid() const override { return true; }
-  Index bend_edges() const override { return static_cast<Index>(mesh_.reflex_edges().size()); }
-  std::array<Point, 2> bend_edge(Index e) const override {
-    const auto& edge = mesh_.reflex_edges()[e];
-    return {edge.end[0], edge.end[0] + edge.extent * edge.direction};
-  }
-  bool string_of(const Member& m, String& string) const override {
-    Taut s;
-    return wave_.reached(m.simplex) && rule_.string_of(m.simplex, s) &&
-           is_string(m.simplex, s, string);
-  }
-  bool string_to(Index vertex, String& string) const override {
-    bool found = false;
-    Real least = infinity;
-    std::vector<Index> asked;  // of one way only the first
-    for (const Index c : mesh_.corners_at(vertex)) {
-      const Index t = c / 4;
-      if (!wave_.reached(t) ||
-          !(wave_.label(t).door == none || rule_.begins_beside(wave_.label(t))))
-        continue;
-      const auto same = [&](Index u) {
-        return wave_.source(u) == wave_.source(t) && same_way(wave_.label(u), wave_.label(t));
-      };
-      if (std::any_of(asked.begin(), asked.end(), same)) continue;
-      Taut s;
-      if (!rule_.string_to(t, mesh_.points()[vertex], s) || !(s.extent < least)) continue;
-      asked.push_back(t);
-      if (!is_string(t, s, string)) continue;
-      least = s.extent;
-      found = true;
-    }
-    return found;
-  }
-  Look look(const String& string, const StringEnd& begin, const StringEnd& end) const override {
-    Taut s;
-    s.bends = string.bends;
-    s.extent = 0;
-    s.at[0] = 1 / unit_ * string.from;
-    for (int i = 0; i < string.bends; ++i) {
-      const auto [a, b] = bend_edge(string.edge[i]);
-      s.edge[i] = string.edge[i];
-      s.at[i + 1] = a + string.share[i] * (b - a);
-    }
-    const Point& last = s.at[s.bends];
-    Index u;
-    if (end.member != nullptr) {
-      u = end.member->simplex;
-      s.at[s.bends + 1] = place(*end.member, end.dimension, end.place);
-    } else {
-      u = rule_.begin_at(end.vertex, last);
-      s.at[s.bends + 1] = mesh_.points()[end.vertex];
-    }
-    for (int i = 0; i < s.bends; ++i)
-      if (!string.stays[i] && rule_.lifts_off(s, i)) return {Look::lifts, i, none};
-    Look found = {Look::hidden, 0, none};
-    if (rule_.is_free_from(s, begin.member != nullptr ? begin.member->simplex : none, u, found.edge,
-                           found.place))
-      found.is = Look::free;
-    return found;
-  }
   void vertices_around(Index vertex, std::vector<Index>& around) const override {
     around.clear();
     for (const Index c : mesh_.corners_at(vertex))
@@ -324,43 +251,9 @@ class MixedSolid final : public MixedPiece<Real> {
       if (key(v) != key(w)) continue;
       torn_.resize(points.size(), 0);
       torn_[v] = torn_[w] = 1;
-      torn_places_.push_back(points[v]);
-      for (const Real x : key(v)) farthest_torn_ = std::max(farthest_torn_, std::abs(x));
     }
     rule_.tell_sides(torn_);
   }
-  // Does t's label not tell on which side its S is, or only by the tetrahedron that it begins in?
-  [[nodiscard]] bool is_torn(Index t) const {
-    const Label& label = wave_.label(t);
-    if (rule_.begins_beside(label)) return true;
-    const Real near = 16 * std::numeric_limits<Real>::epsilon() * farthest_torn_;
-    auto p = std::lower_bound(torn_places_.begin(), torn_places_.end(), label.source.x - near,
-                              [](const Point& point, Real x) { return point.x < x; });
-    for (; p != torn_places_.end() && p->x <= label.source.x + near; ++p)
-      if (norm(*p - label.source) <= near) return true;
-    return false;
-  }
-
-  // A string of t's label, in the domain's unit. False where it bends at what is none of the edges.
-  bool is_string(Index t, const Taut& s, String& string) const {
-    // Nothing is written but a whole string: one that was found before stays as it is.
-    for (int i = 0; i < s.bends; ++i)
-      if (s.edge[i] >= bend_edges()) return false;
-    string.from = unit_ * s.at[0];
-    string.sigma = unit_ * wave_.label(t).sigma;
-    string.source = wave_.source(t);
-    string.torn = is_torn(t);
-    string.bends = s.bends;
-    for (int i = 0; i < s.bends; ++i) {
-      const auto& edge = mesh_.reflex_edges()[s.edge[i]];
-      string.edge[i] = s.edge[i];
-      string.stays[i] = false;
-      string.share[i] =
-          edge.extent > 0 ? dot(s.at[i + 1] - edge.end[0], edge.direction) / edge.extent : 0;
-    }
-    return true;
-  }
-
   // Labels that start on hinges are offered all around, as far as the horizon. True if some was
   // accepted.
   bool offer_around(Real horizon) {
@@ -424,9 +317,7 @@ class MixedSolid final : public MixedPiece<Real> {
     Real next;
   };
   std::vector<OnHinge> on_hinges_;
-  std::vector<char> torn_;          // by vertex, if any
-  std::vector<Point> torn_places_;  // by x
-  Real farthest_torn_ = 0;          // their largest coordinate
+  std::vector<char> torn_;  // by vertex, if any
 };
 
 }  // namespace plexway

@@ -1,0 +1,852 @@
+#include "strings/media_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plexway::strings {
+namespace {
+
+using Kind = MediaSpace::Kind;
+constexpr double unreached = std::numeric_limits<double>::infinity();
+constexpr double unmoved = 1e-9;          // an end that moved less did not move
+constexpr double outside = 1e-6;          // of a patch
+constexpr double gain = 1e-7;             // slopes that count, of the slowness
+constexpr double other_side = 1 - 1e-10;  // cosine: others may have come through other media
+constexpr double brief = 1e-5;            // legs that may have no length
+
+}  // namespace
+
+MediaSolver::MediaSolver(const MediaSpace& space) : space_(&space) {
+  reach_.assign(space.nodes() + 1, unreached);
+  for (Index n = 0; n < space.nodes(); ++n) {
+    const Index p = space.point_of(n), m = space.medium_of(n);
+    if (space.nodes_at(p).size() < 2) continue;
+    double longest = 0;
+    for (const Index w : space.neighbours(n)) {
+      const Index q = space.media()[m].points[w];
+      longest = std::max(longest, norm(space.point(q) - space.point(p)));
+    }
+    reach_[n] = longest * slowness(m);
+  }
+}
+
+bool MediaSolver::solve(std::span<const MediaSource> sources, const Limits& limits) {
+  sources_ = sources;
+  counts_ = {};
+  seed();
+  while (!queue_.empty() || go_by_edges()) {
+    std::pop_heap(queue_.begin(), queue_.end());
+    const Offer next = queue_.back();
+    queue_.pop_back();
+    if (next.distance > limits.radius) break;
+    const Label* found = nodes_[next.node].find(next.chain, next.distance);
+    if (found == nullptr) continue;
+    if (next.distance > best_[point_of(next.node)] + reach_[next.node]) continue;
+    if (counts_.expansions >= limits.expansions) return false;
+    if (limits.progress && counts_.expansions % 4096 == 0)
+      limits.progress(counts_.expansions, next.distance);
+    ++counts_.expansions;
+    expand(next.node, Label(*found));
+  }
+  return true;
+}
+
+// What no string came to, though one came to a neighbour: along the edge. False if there is
+// nothing.
+bool MediaSolver::go_by_edges() {
+  for (Index node = 0; node < space_->nodes(); ++node) {
+    const Label label = nodes_[node].best();
+    if (label.chain == none) continue;
+    for (const Index other : space_->nodes_at(point_of(node)))
+      for (const Index w : space_->neighbours(other)) {
+        const Index to = space_->media()[medium_of(other)].first_node + w;
+        if (best_[point_of(to)] < unreached) continue;
+        prepared_ = false;
+        from_ = node;
+        go_by_corner(node, label, to);
+        puller_.pull(attempt_.string);
+        accept(attempt_, to);
+      }
+  }
+  return !queue_.empty();
+}
+
+// A root for each medium that a source is in.
+void MediaSolver::seed() {
+  roots_.clear();
+  const Point zero = {0, 0, 0};
+  for (Index s = 0; s < sources_.size(); ++s) {
+    const MediaSource& source = sources_[s];
+    if (source.point != none)
+      for (const Index n : space_->nodes_at(source.point))
+        roots_.push_back({s, space_->medium_of(n), n, none, zero});
+    else
+      for (const Index i : source.simplices)
+        roots_.push_back({s, space_->simplices()[i].medium, none, i, space_->beside(i, source.at)});
+  }
+  chains_.start(roots_.size());
+  hints_.assign(roots_.size(), {});
+  nodes_.assign(space_->nodes() + 1, {});
+  best_.assign(space_->points() + 1, unreached);
+  queue_.clear();
+  for (Index r = 0; r < roots_.size(); ++r) {
+    const Root& root = roots_[r];
+    const MediaSource& source = sources_[root.source];
+    if (root.node != none) {
+      take(root.node, {source.offset, r, zero});
+      continue;
+    }
+    for (const Index p : space_->simplices()[root.simplex].corner) {
+      if (p == none) continue;
+      const Point leg = space_->point(p) - source.at;
+      take(space_->node(p, root.medium),
+           {source.offset + slowness(root.medium) * norm(leg), r, unit(leg)});
+    }
+  }
+}
+
+void MediaSolver::take(Index node, const Label& label) {
+  if (!nodes_[node].take(label, behind_ * slowness(medium_of(node)), other_side)) return;
+  ++counts_.labels;
+  double& best = best_[point_of(node)];
+  best = std::min(best, label.distance);
+  queue_.push_back({label.distance, node, label.chain});
+  std::push_heap(queue_.begin(), queue_.end());
+}
+
+double MediaSolver::limit(Index node, const Point& last) const {
+  return std::min(nodes_[node].limit(behind_ * slowness(medium_of(node)), last, other_side),
+                  best_[point_of(node)] + reach_[node]);
+}
+
+void MediaSolver::expand(Index node, const Label& label) {
+  prepared_ = false;
+  from_ = node;
+  const auto& own = space_->media()[medium_of(node)];
+  for (const Index w : space_->neighbours(node)) {
+    const Index to = own.first_node + w;
+    const Outcome outcome = offer(node, label, to, none);
+    if (outcome == Outcome::longer) continue;
+    offer_edge(node, label, to,
+               outcome == Outcome::free ? offset(attempt_) + attempt_.string.length : unreached);
+  }
+  for (const Index other : space_->nodes_at(point_of(node))) {
+    if (other == node) continue;
+    const auto& medium = space_->media()[medium_of(other)];
+    for (const Index w : space_->neighbours(other))
+      offer_through(node, label, medium.first_node + w);
+  }
+}
+
+// Into another medium, through each place at the point.
+void MediaSolver::offer_through(Index node, const Label& label, Index to) {
+  const Index m = medium_of(node), n = medium_of(to);
+  const auto& media = space_->media();
+  double found = unreached;
+  for (const Index q : space_->places_at(point_of(node))) {
+    if (space_->door(q, m) == none) continue;
+    const Index door = space_->door(q, n);
+    if (door == none) continue;
+    // Between two solids a row is the border of a patch, on to which strings slide.
+    if (space_->kind(q) == Kind::row && media[m].is_solid && media[n].is_solid &&
+        !space_->patches_at(q).empty() && space_->last_door(q) - space_->first_door(q) < 3)
+      continue;
+    if (offer(node, label, to, door) == Outcome::free)
+      found = std::min(found, offset(attempt_) + attempt_.string.length);
+  }
+  offer_edge(node, label, to, found);
+}
+
+// Along the edge, if that is shorter than what was found: from the point itself, or over a row.
+void MediaSolver::offer_edge(Index node, const Label& label, Index to, double found) {
+  const Index m = medium_of(to);
+  const double length = label.distance + slowness(m) * norm(at(to) - at(node));
+  constexpr double rounding = 1e-9;
+  if (found < length * (1 + rounding)) return;
+  const auto& medium = space_->media()[m];
+  if (medium_of(node) == m && medium.room)
+    for (const auto& [vertex, row] : medium.room->rows_at(medium.in_room(node)))
+      attempt(node, label, to, space_->first_door(medium.first_bend + row));
+  if (length < limit(to, {0, 0, 0}) && length < best_[point_of(to)] * (1 - rounding))
+    offer_corner(node, label, to);
+}
+
+// The string to the node itself, whose legs are free.
+void MediaSolver::prepare(Index node, const Label& label) {
+  if (prepared_) return;
+  prepared_ = true;
+  Attempt& a = base_;
+  chains_.places(label.chain, a.doors);
+  a.root = chains_.source(label.chain);
+  a.splits = 0;
+  a.touched = false;
+  const std::size_t n = a.doors.size();
+  a.string.from = sources_[roots_[a.root].source].at;
+  a.string.to = at(node);
+  a.string.places.clear();
+  a.string.at.resize(n);
+  a.string.wide.resize(n);
+  Index chain = label.chain;
+  for (std::size_t i = n; i-- > 0; chain = chains_[chain].parent) {
+    a.string.at[i] = hints_[chain][0];
+    a.string.wide[i] = hints_[chain][1];
+  }
+  a.string.slowness.assign(1, slowness(roots_[a.root].medium));
+  for (const Index d : a.doors) {
+    a.string.places.push_back(place(space_->place_of(d)));
+    a.string.slowness.push_back(slowness(space_->medium_behind(d)));
+  }
+  ++counts_.pulls;
+  a.string.hold(0);
+  puller_.pull(a.string);
+  a.legs.clear();
+  for (std::size_t i = 0; i <= n; ++i)
+    a.legs.push_back({a.string.corner(i), a.string.corner(i + 1), true});
+  for (const bool again : {false, true})  // then ends know the sides of cracks from each other
+    for (std::size_t i = 0; i <= n && (!again || n > 0); ++i)
+      a.legs[i] = {end_of_leg(a, i, i + 1, node), end_of_leg(a, i + 1, i, node), true};
+}
+
+// What a string that goes on through a place at the end of another one is at least as long as.
+double MediaSolver::bound(Index from, const Label& label, Index to, Index door) const {
+  const Point way = at(to) - at(from);
+  const Point slope = slowness(medium_of(from)) * label.last;
+  if (door == none) return label.distance + dot(slope, way);
+  const Place& q = space_->place(space_->place_of(door));
+  double along = dot(slope, q.along), wide = dot(slope, q.wide);
+  const double s = slowness(space_->medium_behind(door)),
+               rest = s * s - along * along - wide * wide;
+  if (rest <= 0) return -unreached;
+  const double wa = dot(way, q.along), ww = dot(way, q.wide);
+  const Point off = way - wa * q.along - ww * q.wide;
+  return label.distance + along * wa + wide * ww + std::sqrt(rest) * norm(off);
+}
+
+MediaSolver::Outcome MediaSolver::offer(Index from, const Label& label, Index to, Index door) {
+  // The length of a chain is convex in where it ends.
+  const double least = bound(from, label, to, door);
+  if (least >= (door == none ? limit(to, label.last) : limit(to, {0, 0, 0})))
+    return Outcome::longer;
+  VertexLabels& at = nodes_[to];
+  Index chain = label.chain;
+  if (door != none) {
+    chain = chains_.with(chain, door);
+    hints_.resize(chains_.size(), {});
+  }
+  if (at.knows(chain)) return Outcome::longer;
+  if (door != none) ++counts_.through;
+  const Outcome outcome = attempt(from, label, to, door);
+  // Where it was blocked it may come past on another side from another node.
+  if (outcome != Outcome::stuck && !attempt_.touched) at.remember(chain);
+  return outcome;
+}
+
+MediaSolver::Outcome MediaSolver::attempt(Index from, const Label& label, Index to, Index door) {
+  ++counts_.offers;
+  prepare(from, label);
+  attempt_ = base_;
+  Attempt& a = attempt_;
+  a.string.to = at(to);
+  if (door != none) append(a, door, a.string.to);
+  Outcome outcome = settle(a, to, unreached);
+  if (outcome != Outcome::longer) outcome = improve(a, to, outcome);
+  if (outcome == Outcome::stuck) ++counts_.stuck;
+  if (outcome == Outcome::free) accept(a, to);
+  return outcome;
+}
+
+// Straight on from the point itself, along the edge.
+void MediaSolver::go_by_corner(Index from, const Label& label, Index to) {
+  const Index p = point_of(from), door = space_->door(space_->corner(p), medium_of(to));
+  prepare(from, label);
+  attempt_ = base_;
+  attempt_.string.to = at(to);
+  append(attempt_, door, space_->point(p));
+}
+
+// And what is shorter past it.
+void MediaSolver::offer_corner(Index from, const Label& label, Index to) {
+  ++counts_.corners;
+  go_by_corner(from, label, to);
+  Outcome outcome = settle(attempt_, to, unreached);
+  if (outcome != Outcome::longer) outcome = improve(attempt_, to, outcome);
+  if (outcome == Outcome::free) accept(attempt_, to);
+}
+
+// Between the end of the string as it was and a point on the way to the new one.
+void MediaSolver::append(Attempt& a, Index door, const Point& toward) {
+  const Place* p = place(space_->place_of(door));
+  const Point &from = at(from_), middle = .5 * (from + toward);
+  const Point d = middle - p->origin;
+  a.doors.push_back(door);
+  a.string.places.push_back(p);
+  a.string.at.push_back(std::clamp(dot(d, p->along), p->low, p->high));
+  a.string.wide.push_back(dot(d, p->wide));
+  a.string.slowness.push_back(slowness(space_->medium_behind(door)));
+  // From where it is free: in that medium beside the point, which tells the side of a crack.
+  const Index m = space_->medium_behind(door), n = space_->node(point_of(from_), m);
+  const auto& room = space_->media()[m].room;
+  const Point beside =
+      room && n != none ? room->beside(space_->media()[m].in_room(n), toward, toward) : from;
+  a.legs.push_back({beside, beside, false});
+}
+
+const Place* MediaSolver::place(Index number) {
+  if (space_->kind(number) != Kind::corner) return &space_->place(number);
+  const Index p = space_->point_of_corner(number);
+  const Point zero = {0, 0, 0};
+  return &corners_.try_emplace(p, Place{space_->point(p), zero, 0, 0, zero, zero, zero, 0, p})
+              .first->second;
+}
+
+Point MediaSolver::end_of_leg(const Attempt& a, std::size_t corner, std::size_t other,
+                              Index to) const {
+  const Point &toward = a.string.corner(other),
+              &free = other > corner ? a.legs[corner].to : a.legs[other].from;
+  const Index m = medium_of_leg(a, std::min(corner, other));
+  const auto& medium = space_->media()[m];
+  if (!medium.room) return a.string.corner(corner);
+  if (corner > a.doors.size())
+    return to == space_->nodes()
+               ? attached_beside_
+               : medium.room->beside(medium.in_room(to), toward, a.legs.back().to);
+  if (corner == 0) {
+    const Root& root = roots_[a.root];
+    return root.node != none ? medium.room->beside(medium.in_room(root.node), toward, free)
+                             : root.beside;
+  }
+  const Index q = place_of(a, corner - 1);
+  const Point& at = a.string.points[corner - 1];
+  if (space_->kind(q) != Kind::patch) return space_->beside(q, m, at, toward, free);
+  // On one side of a crack through the plane, for both legs.
+  const Point side = at + (a.legs[corner - 1].from - at) + (a.legs[corner].to - at);
+  return space_->beside(q, m, at, toward, side);
+}
+
+// Instead of places from `begin` to `end` others, at a point.
+void MediaSolver::replace(Attempt& a, std::size_t begin, std::size_t end,
+                          std::span<const Index> doors, const Point& at) {
+  MediaString& s = a.string;
+  const auto b = static_cast<std::ptrdiff_t>(begin), e = static_cast<std::ptrdiff_t>(end);
+  const Leg first = a.legs[begin], last = a.legs[end];
+  a.doors.erase(a.doors.begin() + b, a.doors.begin() + e);
+  s.places.erase(s.places.begin() + b, s.places.begin() + e);
+  s.at.erase(s.at.begin() + b, s.at.begin() + e);
+  s.wide.erase(s.wide.begin() + b, s.wide.begin() + e);
+  s.points.erase(s.points.begin() + b, s.points.begin() + e);
+  s.slowness.erase(s.slowness.begin() + b + 1, s.slowness.begin() + e + 1);
+  a.legs.erase(a.legs.begin() + b, a.legs.begin() + e);
+  a.doors.insert(a.doors.begin() + b, doors.begin(), doors.end());
+  s.points.insert(s.points.begin() + b, doors.size(), at);
+  s.places.insert(s.places.begin() + b, doors.size(), nullptr);
+  s.at.insert(s.at.begin() + b, doors.size(), 0);
+  s.wide.insert(s.wide.begin() + b, doors.size(), 0);
+  s.slowness.insert(s.slowness.begin() + b + 1, doors.size(), 0);
+  a.legs.insert(a.legs.begin() + b, doors.size(), {at, at, false});
+  for (std::size_t i = begin; i < begin + doors.size(); ++i) {
+    const Place* p = place(space_->place_of(a.doors[i]));
+    s.places[i] = p;
+    s.at[i] = std::clamp(dot(at - p->origin, p->along), p->low, p->high);
+    s.wide[i] = dot(at - p->origin, p->wide);
+    s.slowness[i + 1] = slowness(space_->medium_behind(a.doors[i]));
+  }
+  a.legs[begin].from = first.from;
+  a.legs[begin + doors.size()].to = last.to;
+  a.legs[begin].known = a.legs[begin + doors.size()].known = false;
+  if (doors.empty()) a.legs[begin] = {first.from, first.to, false};
+}
+
+// Would a string through a point, that comes and goes in these directions, be shorter through doors
+// there? A problem of its own, with legs of length 1 and places that have no ends. At a row patches
+// have a side.
+bool MediaSolver::gains(const Point& in, const Point& out, std::span<const Index> doors,
+                        Index before, const Point& at, Index row) {
+  MediaString s;
+  s.from = at - in;
+  s.to = at + out;
+  s.slowness.assign(1, slowness(before));
+  copies_.clear();
+  copies_.reserve(doors.size());
+  for (std::size_t i = 0; i < doors.size(); ++i) {
+    const Place* p = place(space_->place_of(doors[i]));
+    copies_.push_back(*p);
+    Place& copy = copies_.back();
+    if (space_->kind(space_->place_of(doors[i])) != Kind::corner) {
+      copy.low = -unreached;
+      copy.high = unreached;
+    }
+    s.places.push_back(&copy);
+    const Point d =
+        s.from + double(i + 1) / double(doors.size() + 1) * (s.to - s.from) - copy.origin;
+    s.at.push_back(copy.high > copy.low ? dot(d, copy.along) : 0);
+    s.wide.push_back(dot(d, copy.wide));
+    s.slowness.push_back(slowness(space_->medium_behind(doors[i])));
+  }
+  puller_.pull(s);
+  apart_ = s.points;
+  const double now = s.slowness.front() + s.slowness.back();
+  if (!(s.length < now * (1 - 1e-9))) return false;
+  for (std::size_t i = 0; i < doors.size(); ++i) {
+    const Index q = space_->place_of(doors[i]);
+    if (space_->kind(q) != Kind::patch) continue;
+    if (row != none) {
+      if (dot(s.points[i] - at, space_->inward(q, row)) < -1e-9) return false;
+      continue;
+    }
+    const Point d = at + 1e-3 * unit(s.points[i] - at) - s.places[i]->origin;
+    if (!space_->holds(space_->patch(q), dot(d, s.places[i]->along), dot(d, s.places[i]->wide),
+                       1e-9))
+      return false;
+  }
+  return true;
+}
+
+// Places that are all at a point go where `gains` found them: there the length has a kink, which no
+// pull leaves by itself.
+void MediaSolver::move_apart(Attempt& a, std::size_t begin, const Point& at) {
+  MediaString& s = a.string;
+  const std::size_t end = begin + apart_.size();
+  const double scale =
+      .5 * std::min({1., norm(at - s.corner(begin)), norm(s.corner(end + 1) - at)});
+  for (std::size_t i = begin; i < end; ++i) {
+    const Place& p = *s.places[i];
+    const Point d = at + scale * (apart_[i - begin] - at) - p.origin;
+    s.at[i] = std::clamp(dot(d, p.along), p.low, p.high);
+    s.wide[i] = dot(d, p.wide);
+  }
+}
+
+// A leg without length: is the string as short without it? Then it is dropped.
+bool MediaSolver::collapse(Attempt& a, std::size_t leg, bool& useless) {
+  const std::size_t n = a.doors.size();
+  const MediaString& s = a.string;
+  if (leg == 0 || leg == n) {
+    // At an end another label begins or ends in the medium behind.
+    const std::size_t i = leg == 0 ? 0 : n - 1;
+    if (norm(s.corner(leg + 1) - s.corner(leg)) > unmoved) return false;
+    const Place& p = *s.places[i];
+    const std::size_t next = leg == 0 ? 1 : n - 1;
+    const Point d = unit(s.corner(next + 1) - s.corner(next));
+    const double tangent = s.slow(next) * std::hypot(dot(d, p.along), dot(d, p.wide));
+    if (tangent <= s.slow(leg) * (1 + 1e-9) || a.splits++ > 2) useless = true;
+    return false;
+  }
+  const std::size_t i = leg - 1;
+  const Index before = medium_of_leg(a, i), after = medium_of_leg(a, leg + 1);
+  const Point at = s.points[i], in = unit(s.corner(i + 1) - s.corner(i)),
+              out = unit(s.corner(leg + 2) - s.corner(leg + 1));
+  if (norm(in) == 0 || norm(out) == 0) return false;
+  if (space_->kind(place_of(a, i)) == Kind::bend && space_->kind(place_of(a, leg)) == Kind::bend)
+    return false;
+  ++counts_.collapses;
+  const std::array<Index, 2> both = {a.doors[i], a.doors[leg]};
+  if (before == after) {
+    if (gains(in, out, both, before, at, none) && a.splits++ < 3) {
+      move_apart(a, i, at);
+      return true;
+    }
+    replace(a, i, leg + 1, {}, at);
+    return true;
+  }
+  // The place where both are.
+  std::vector<Index> found;
+  const auto is_at = [&](Index row) {
+    const Place& p = space_->place(row);
+    const double t = std::clamp(dot(at - p.origin, p.along), p.low, p.high);
+    return norm(at - p.at(t)) < 1e-4;
+  };
+  const Index q[2] = {place_of(a, i), place_of(a, leg)};
+  const auto consider = [&](Index p) {
+    const Index door = space_->door(p, after);
+    if (door != none && space_->door(p, before) != none) found.push_back(door);
+  };
+  if (q[0] == q[1]) {
+    if (gains(in, out, both, before, at, none) && a.splits++ < 3) {
+      move_apart(a, i, at);
+      return true;
+    }
+    consider(q[0]);
+  }
+  for (const Index p : q) {
+    if (space_->kind(p) == Kind::corner) consider(p);
+    if (space_->kind(p) == Kind::row && is_at(p)) consider(p);
+  }
+  for (const Index p : q) {
+    if (space_->kind(p) == Kind::patch)
+      for (const Index row : space_->patch(p).rows)
+        if (is_at(row)) consider(row);
+    if (space_->kind(p) == Kind::row)
+      for (const Index end : space_->ends(p))
+        if (norm(at - space_->point(end)) < 1e-4) consider(space_->corner(end));
+  }
+  if (found.empty() || a.splits++ > 8) return false;
+  replace(a, i, leg + 1, std::array{found[0]}, at);
+  return true;
+}
+
+// A crossing off its patch slides on to the row there.
+bool MediaSolver::leave_patch(Attempt& a, std::size_t i) {
+  const Index q = place_of(a, i);
+  const auto& patch = space_->patch(q);
+  MediaString& s = a.string;
+  if (space_->holds(patch, s.at[i], s.wide[i], outside)) return false;
+  const Place& plane = *s.places[i];
+  const Point d = a.legs[i].to - plane.origin;
+  Spot from = {dot(d, plane.along), dot(d, plane.wide)};
+  const Index row = space_->leaves(patch, from, {s.at[i], s.wide[i]});
+  const Index door = row == none ? none : space_->door(row, space_->medium_behind(a.doors[i]));
+  if (door == none) return false;
+  ++counts_.slides;
+  replace(a, i, i + 1, std::array{door}, s.points[i]);
+  return true;
+}
+
+bool MediaSolver::lift_off_row(Attempt& a, std::size_t i) {
+  MediaString& s = a.string;
+  const Index row = place_of(a, i), before = medium_of_leg(a, i), after = medium_of_leg(a, i + 1);
+  const Point at = s.points[i], in = unit(at - s.corner(i)), out = unit(s.corner(i + 2) - at);
+  if (norm(in) == 0 || norm(out) == 0) return false;
+  const Point force = s.slow(i + 1) * out - s.slow(i) * in;
+  const double least = gain * (s.slow(i) + s.slow(i + 1));
+  if (before == after) {
+    replace(a, i, i + 1, {}, at);
+    return true;
+  }
+  const Place& line = *s.places[i];
+  const auto& ends = space_->ends(row);
+  const bool low = s.at[i] <= line.low + unmoved, high = s.at[i] >= line.high - unmoved;
+  if ((low && dot(force, line.along) < -least) || (high && dot(force, line.along) > least)) {
+    const Index door = space_->door(space_->corner(ends[low ? 0 : 1]), after);
+    if (door == none) return false;
+    ++counts_.slides;
+    replace(a, i, i + 1, std::array{door}, at);
+    return true;
+  }
+  double most = least;
+  Index best = none;
+  for (const Index q : space_->patches_at(row)) {
+    const Index door = space_->door(q, after);
+    if (door == none || space_->door(q, before) == none) continue;
+    const double by = dot(force, space_->inward(q, row));
+    if (by > most) most = by, best = door;
+  }
+  if (best == none) return false;
+  ++counts_.lifts;
+  replace(a, i, i + 1, std::array{best}, at);
+  return true;
+}
+
+bool MediaSolver::lift_off_corner(Attempt& a, std::size_t i) {
+  MediaString& s = a.string;
+  const Index corner = place_of(a, i), before = medium_of_leg(a, i),
+              after = medium_of_leg(a, i + 1);
+  const Point at = s.points[i], in = unit(at - s.corner(i)), out = unit(s.corner(i + 2) - at);
+  if (norm(in) == 0 || norm(out) == 0) return false;
+  if (before == after) return false;
+  const Point force = s.slow(i + 1) * out - s.slow(i) * in;
+  double most = gain * (s.slow(i) + s.slow(i + 1));
+  Index best = none;
+  const Index point = space_->point_of_corner(corner);
+  for (const Index q : space_->places_at(point)) {
+    const Index door = space_->door(q, after);
+    if (door == none || space_->door(q, before) == none) continue;
+    const Place& p = space_->place(q);
+    double by = 0;
+    if (space_->kind(q) == Kind::row) {
+      by = dot(force, p.along);
+      const auto& ends = space_->ends(q);
+      by = ends[0] == point ? by : ends[1] == point ? -by : std::abs(by);
+    } else {
+      const double t = dot(force, p.along), u = dot(force, p.wide);
+      by = std::hypot(t, u);
+      if (!(by > most)) continue;
+      const Point d = at - p.origin;
+      if (!space_->holds(space_->patch(q), dot(d, p.along) + 1e-3 * t / by,
+                         dot(d, p.wide) + 1e-3 * u / by, 1e-9))
+        continue;
+    }
+    if (by > most) most = by, best = door;
+  }
+  if (best == none) return false;
+  ++counts_.lifts;
+  replace(a, i, i + 1, std::array{best}, at);
+  return true;
+}
+
+bool MediaSolver::drop_lifted(Attempt& a, std::size_t i, Index to) {
+  const Place& p = *a.string.places[i];
+  if (p.holds()) return false;
+  const Point& at = a.string.points[i];
+  const Leg &in = a.legs[i], &out = a.legs[i + 1];
+  const double from = p.angle_of(end_of_leg(a, i, i + 1, to) - at, in.from - in.to),
+               on = p.angle_of(end_of_leg(a, i + 2, i + 1, to) - at, out.to - out.from);
+  if (p.presses(from, on)) return false;
+  const Point beside = end_of_leg(a, i + 1, i, to);
+  replace(a, i, i + 1, {}, at);
+  a.legs[i].to = beside;
+  return true;
+}
+
+// Are the places right for the string as it is? One that is not is changed.
+bool MediaSolver::rearrange(Attempt& a, Index to, bool& useless) {
+  for (std::size_t leg = a.doors.size() + 1; leg-- > a.string.held;) {
+    if (a.doors.empty()) break;
+    if (norm(a.string.corner(leg + 1) - a.string.corner(leg)) > brief) continue;
+    if (leg > a.doors.size()) continue;
+    if (collapse(a, leg, useless)) return true;
+    if (useless) return false;
+  }
+  for (std::size_t i = a.doors.size(); i-- > a.string.held;) {
+    switch (space_->kind(place_of(a, i))) {
+      case Kind::bend:
+        if (drop_lifted(a, i, to)) return true;
+        break;
+      case Kind::patch:
+        if (leave_patch(a, i)) return true;
+        break;
+      case Kind::row:
+        if (lift_off_row(a, i)) return true;
+        break;
+      case Kind::corner:
+        if (lift_off_corner(a, i)) return true;
+        break;
+    }
+  }
+  return false;
+}
+
+bool MediaSolver::is_edge(const Attempt& a) const {
+  const Index m = medium_of_leg(a, a.doors.size());
+  const Index p = point_of(from_);
+  if (a.doors.empty()) return roots_[a.root].node == from_;
+  return a.string.places.back()->vertex == p && space_->node(p, m) != none;
+}
+
+std::size_t MediaSolver::blocked(const Attempt& a, Index to) {
+  const auto moved = [](const Point& p, const Point& q) {
+    const Point d = p - q;
+    return dot(d, d) > unmoved * unmoved;
+  };
+  for (std::size_t i = a.legs.size(); i-- > a.string.held;) {
+    const auto& medium = space_->media()[medium_of_leg(a, i)];
+    if (!medium.room) continue;
+    if (i + 1 == a.legs.size() && is_edge(a)) continue;
+    const Point from = end_of_leg(a, i, i + 1, to), end = end_of_leg(a, i + 1, i, to);
+    const Leg& leg = a.legs[i];
+    if (leg.known && !moved(from, leg.from) && !moved(end, leg.to)) continue;
+    ++counts_.legs;
+    if (medium.room->sight().is_blocked(from, end)) return i;
+  }
+  return a.legs.size();
+}
+
+bool MediaSolver::insert_touched(Attempt& a, std::size_t n, Index to) {
+  ++counts_.touches;
+  const Leg leg = a.legs[n];
+  const Index m = medium_of_leg(a, n);
+  const auto& medium = space_->media()[m];
+  const Point from = end_of_leg(a, n, n + 1, to), end = end_of_leg(a, n + 1, n, to);
+  const auto own = [&](std::size_t i) {
+    const Index p = place_of(a, i);
+    if (space_->kind(p) != Kind::bend || p < medium.first_bend) return none;
+    return p - medium.first_bend;
+  };
+  const std::array<Index, 2> known = {n > 0 ? own(n - 1) : none,
+                                      n < a.doors.size() ? own(n) : none};
+  const bool backward = norm(leg.from - from) > norm(leg.to - end);
+  const auto touch = backward ? medium.room->sight().touch(end, from, leg.from, known)
+                              : medium.room->sight().touch(from, end, leg.to, known);
+  if (!touch) return false;
+  a.touched = true;
+  const Index number = medium.first_bend + touch->place;
+  const Place* place = this->place(number);
+  const Point at = place->at(touch->at), beside = place->beside(touch->at, space_->aside());
+  replace(a, n, n, std::array{space_->first_door(number)}, at);
+  a.legs[n] = {leg.from, beside, false};
+  a.legs[n + 1] = {beside, leg.to, false};
+  return true;
+}
+
+MediaSolver::Outcome MediaSolver::settle(Attempt& a, Index to, double least) {
+  constexpr int most = 48;
+  constexpr std::size_t loose = 3;
+  MediaString& string = a.string;
+  const auto hold = [&] { string.hold(std::max(string.bends(), loose) - loose); };
+  hold();
+  bool useless = false;
+  for (int round = 0; round < most; ++round) {
+    ++counts_.pulls;
+    puller_.pull(string);
+    if (rearrange(a, to, useless)) {
+      if (string.held > 0 && string.bends() < string.held + 2) hold();
+      continue;
+    }
+    if (useless) return Outcome::longer;
+    const double length = offset(a) + string.length;
+    if (!(string.length < least) || !(length * (1 + 1e-12) < limit(to, last_leg(a)))) {
+      if (string.held == 0) return Outcome::longer;
+      string.hold(0);  // what is held may gain
+      continue;
+    }
+    const std::size_t leg = blocked(a, to);
+    if (leg < a.legs.size()) {
+      if (!insert_touched(a, leg, to)) break;
+    } else if (string.held == 0) {
+      return Outcome::free;
+    } else {
+      string.hold(0);
+    }
+  }
+  string.hold(0);
+  puller_.pull(string);
+  return Outcome::stuck;
+}
+
+// A string held at the end of a place may be shorter past it, one at a row or a corner through
+// another medium there.
+MediaSolver::Outcome MediaSolver::improve(Attempt& a, Index to, Outcome outcome) {
+  const auto tries = [&](std::size_t i, std::span<const Index> doors) {
+    other_ = a;
+    other_.splits = 0;
+    replace(other_, i, i + 1, doors, a.string.points[i]);
+    if (doors.size() > 1) move_apart(other_, i, a.string.points[i]);
+    const double less = outcome == Outcome::free ? a.string.length * (1 - 1e-12) : unreached;
+    if (settle(other_, to, less) != Outcome::free) return false;
+    std::swap(a, other_);
+    outcome = Outcome::free;
+    return true;
+  };
+  for (std::size_t i = a.doors.size(); i-- > 0;) {
+    if (i >= a.doors.size()) continue;
+    const Index q = place_of(a, i);
+    const Kind kind = space_->kind(q);
+    const Index before = medium_of_leg(a, i), after = medium_of_leg(a, i + 1);
+    if (before == after && is_held(a.string, i) && tries(i, {})) continue;
+    if (kind != Kind::row && kind != Kind::corner) continue;
+    const Point at = a.string.points[i], in = unit(at - a.string.corner(i)),
+                out = unit(a.string.corner(i + 2) - at);
+    if (norm(in) == 0 || norm(out) == 0) continue;
+    std::vector<Index> places;
+    if (kind == Kind::row) {
+      const auto patches = space_->patches_at(q);
+      places.assign(patches.begin(), patches.end());
+      places.push_back(q);
+    } else {
+      const auto all = space_->places_at(space_->point_of_corner(q));
+      places.assign(all.begin(), all.end());
+    }
+    const auto through = [&] {
+      for (const Index one : places)
+        for (const Index two : places) {
+          if (space_->door(one, before) == none) continue;
+          const Index last = space_->door(two, after);
+          if (last == none) continue;
+          for (Index d = space_->first_door(one); d < space_->last_door(one); ++d) {
+            const Index m = space_->medium_behind(d);
+            if (m == before || m == after || space_->door(two, m) == none) continue;
+            ++counts_.pairs;
+            const std::array<Index, 2> doors = {d, last};
+            if (gains(in, out, doors, before, at, kind == Kind::row ? q : none) && tries(i, doors))
+              return true;
+          }
+        }
+      return false;
+    };
+    through();
+  }
+  return outcome;
+}
+
+void MediaSolver::accept(const Attempt& a, Index to) {
+  Index chain = a.root;
+  for (std::size_t i = 0; i < a.doors.size(); ++i) {
+    chain = chains_.with(chain, a.doors[i]);
+    hints_.resize(chains_.size(), {});
+    hints_[chain] = {a.string.at[i], a.string.wide[i]};
+  }
+  nodes_[to].remember(chain);
+  take(to, {offset(a) + a.string.length, chain, last_leg(a)});
+}
+
+std::pair<Index, const Label*> MediaSolver::best(Index point) const {
+  std::pair<Index, const Label*> best = {none, nullptr};
+  const auto consider = [&](Index node) {
+    const Label& l = nodes_[node].best();
+    if (l.chain == none || (best.second != nullptr && !(l.distance < best.second->distance)))
+      return;
+    best = {node, &l};
+  };
+  if (point == space_->points())
+    consider(static_cast<Index>(space_->nodes()));
+  else
+    for (const Index n : space_->nodes_at(point)) consider(n);
+  return best;
+}
+
+void MediaSolver::attach(const Point& at, std::span<const Index> simplices) {
+  const auto number = static_cast<Index>(space_->nodes());
+  attached_ = at;
+  nodes_[number] = {};
+  best_[space_->points()] = unreached;
+  Index medium = none;
+  VertexLabels shortest;
+  for (const Index s : simplices) {
+    const auto& simplex = space_->simplices()[s];
+    attached_medium_ = simplex.medium;
+    attached_beside_ = space_->beside(s, at);
+    for (Index r = 0; r < roots_.size(); ++r) {
+      if (roots_[r].simplex != s) continue;
+      const Point leg = at - sources_[roots_[r].source].at;
+      take(number, {sources_[roots_[r].source].offset + slowness(simplex.medium) * norm(leg), r,
+                    unit(leg)});
+    }
+    for (const Index p : simplex.corner) {
+      if (p == none) continue;
+      for (const Index n : space_->nodes_at(p)) {
+        from_ = n;
+        for (const Label& label : VertexLabels(nodes_[n]).labels) {
+          if (label.chain == none) continue;
+          prepared_ = false;
+          if (medium_of(n) != simplex.medium) {
+            offer_through(n, label, number);
+          } else if (const Outcome o = offer(n, label, number, none); o != Outcome::longer) {
+            offer_edge(n, label, number,
+                       o == Outcome::free ? offset(attempt_) + attempt_.string.length : unreached);
+          }
+        }
+      }
+    }
+    if (nodes_[number].best().distance < shortest.best().distance) {
+      shortest = nodes_[number];
+      medium = simplex.medium;
+    }
+    nodes_[number] = {};
+  }
+  nodes_[number] = shortest;
+  attached_medium_ = medium;
+  best_[space_->points()] = shortest.best().distance;
+  queue_.clear();
+}
+
+MediaSolver::Path MediaSolver::path(Index point) {
+  const auto [node, label] = best(point);
+  if (label == nullptr) return {};
+  prepared_ = false;
+  const Label copy = *label;
+  prepare(node, copy);
+  Path path;
+  for (std::size_t n = 0; n < base_.doors.size() + 2; ++n) {
+    path.points.push_back(base_.string.corner(n));
+    if (n > 0) path.media.push_back(medium_of_leg(base_, n - 1));
+  }
+  return path;
+}
+
+std::size_t MediaSolver::bytes() const {
+  return chains_.bytes() + hints_.capacity() * sizeof(Spot) +
+         nodes_.capacity() * sizeof(VertexLabels) + best_.capacity() * sizeof(double) +
+         reach_.capacity() * sizeof(double) + queue_.capacity() * sizeof(Offer);
+}
+
+}  // namespace plexway::strings

@@ -1,0 +1,121 @@
+#include "strings/mixed_strings.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <plexway/error.hpp>
+
+namespace plexway {
+namespace {
+
+// Where a point of a simplex is a vertex of it.
+Index corner_of(const strings::MediaSpace& media, Index simplex, const PointSource& point) {
+  for (std::size_t i = 0; i < 4; ++i)
+    if (point.barycentric[i] == 1) return media.simplices()[simplex].corner[i];
+  return none;
+}
+
+strings::MediaSource source_of(const MixedSpace& space, const PointSource& given) {
+  const strings::MediaSpace& media = *space.media;
+  strings::MediaSource source;
+  source.offset = given.offset / media.unit();
+  if (given.vertex != none) {
+    source.point = space.point[given.vertex];
+  } else {
+    const Index simplex = space.simplex(given.simplex);
+    source.point = corner_of(media, simplex, given);
+    source.at = media.at(simplex, given.barycentric);
+    source.simplices = media.simplices_around(simplex, given.barycentric);
+  }
+  if (source.point != none) source.at = media.point(source.point);
+  return source;
+}
+
+}  // namespace
+
+template <class Real>
+void MixedStrings::solve(const MixedComplex<Real>& domain, std::shared_ptr<const MixedSpace> space,
+                         std::span<const PointSource> sources, const PropagateOptions& options,
+                         DistanceField<Real>& field) {
+  const strings::MediaSpace& media = *space->media;
+  if (!solver_ || space_ != space) {
+    solver_ = std::make_unique<strings::MediaSolver>(media);
+    space_ = std::move(space);
+  }
+  sources_.clear();
+  for (const PointSource& s : sources) sources_.push_back(source_of(*space_, s));
+  const double unit = media.unit();
+  strings::Limits limits;
+  limits.radius = options.radius / unit;
+  limits.expansions = options.max_expansions;
+  if (options.progress)
+    limits.progress = [&](std::size_t expansions, double distance) {
+      const std::size_t all = domain.simplex_count();
+      if (!options.progress({expansions, std::min(expansions, all), all, distance * unit}))
+        throw Cancelled("cancelled by the progress callback");
+    };
+  field.complete = solver_->solve(sources_, limits);
+  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  const std::size_t vertices = domain.vertex_count();
+  field.distance.resize(vertices);
+  field.label.assign(sources.size() > 1 ? vertices : 0, none);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const Index point = space_->point[v];
+    const Real d = static_cast<Real>(solver_->distance(point) * unit);
+    const bool in = d <= static_cast<Real>(options.radius) && d < infinity;
+    field.distance[v] = in ? d : infinity;
+    if (in && sources.size() > 1) field.label[v] = solver_->source(point);
+  }
+  // An offset survives scaling exactly, and a vertex that no simplex has is a source all the same.
+  for (Index n = 0; n < sources.size(); ++n) {
+    const PointSource& s = sources[n];
+    const Real offset = static_cast<Real>(s.offset);
+    if (s.vertex == none || s.offset > options.radius || !(offset < field.distance[s.vertex]))
+      continue;
+    field.distance[s.vertex] = offset;
+    if (sources.size() > 1) field.label[s.vertex] = n;
+  }
+  field.accuracy = Accuracy::accurate();
+  field.error.clear();
+  field.statistics = {};
+  field.statistics.expansions = solver_->counts().expansions;
+  field.statistics.updates = solver_->counts().labels;
+  field.statistics.reached_simplices = 0;
+}
+
+MixedStrings::Found MixedStrings::at(const PointSource& point) const {
+  const std::lock_guard lock(asked_);
+  const strings::MediaSpace& media = *space_->media;
+  Index number;
+  if (point.vertex != none) {
+    number = space_->point[point.vertex];
+  } else {
+    const Index simplex = space_->simplex(point.simplex);
+    number = corner_of(media, simplex, point);
+    if (number == none) {
+      number = static_cast<Index>(media.points());
+      solver_->attach(media.at(simplex, point.barycentric),
+                      media.simplices_around(simplex, point.barycentric));
+    }
+  }
+  const Index source = solver_->source(number);
+  if (source == none) return {std::numeric_limits<double>::infinity(), none, {}};
+  Found found{solver_->distance(number) * media.unit(), source, solver_->path(number).points};
+  for (strings::Point& p : found.points) p = media.outer(p);
+  return found;
+}
+
+std::size_t MixedStrings::bytes() const {
+  return sizeof(*this) + (solver_ ? solver_->bytes() : 0) +
+         sources_.capacity() * sizeof(strings::MediaSource);
+}
+
+template void MixedStrings::solve(const MixedComplex<float>&, std::shared_ptr<const MixedSpace>,
+                                  std::span<const PointSource>, const PropagateOptions&,
+                                  DistanceField<float>&);
+template void MixedStrings::solve(const MixedComplex<double>&, std::shared_ptr<const MixedSpace>,
+                                  std::span<const PointSource>, const PropagateOptions&,
+                                  DistanceField<double>&);
+
+}  // namespace plexway

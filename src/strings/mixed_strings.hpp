@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include <plexway/mixed/mixed_complex.hpp>
+#include <plexway/solve/distance_field.hpp>
+#include <plexway/solve/options.hpp>
+#include <plexway/source/point_source.hpp>
+
+#include "strings/media_solver.hpp"
+#include "strings/mixed_space.hpp"
+
+/// Mixed domains by strings: between the library's sources, options and fields, and theirs.
+namespace plexway {
+
+/// What a solve by strings leaves; its memory is used again by the next one.
+class MixedStrings {
+ public:
+  /// By one thread: whatever the executor, the same bits. `space` has media.
+  template <class Real>
+  void solve(const MixedComplex<Real>& domain, std::shared_ptr<const MixedSpace> space,
+             std::span<const PointSource> sources, const PropagateOptions& options,
+             DistanceField<Real>& field);
+
+  /// The shortest path to a point; its bends and both ends, from the source on, where the domain
+  /// lies. No points where no path leads.
+  struct Found {
+    double distance;  ///< in the domain's unit
+    Index source;
+    std::vector<strings::Point> points;
+  };
+  /// Any number of threads may ask, one after the other.
+  [[nodiscard]] Found at(const PointSource& point) const;
+
+  [[nodiscard]] std::size_t bytes() const;
+
+ private:
+  std::shared_ptr<const MixedSpace> space_;
+  std::unique_ptr<strings::MediaSolver> solver_;
+  mutable std::mutex asked_;
+  std::vector<strings::MediaSource> sources_;
+};
+
+}  // namespace plexway
