@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -62,6 +63,15 @@ class MediaSolver {
   [[nodiscard]] const Counts& counts() const { return counts_; }
 
  private:
+  using Kind = MediaSpace::Kind;
+  static constexpr double unreached = std::numeric_limits<double>::infinity();
+  static constexpr double unmoved = 1e-9;  // an end that moved less did not move
+  static constexpr double outside = 1e-6;  // of a patch
+  static constexpr double gain = 1e-7;     // slopes that count, of the slowness
+  static constexpr double other_side =
+      1 - 1e-10;                         // cosine: others may have come through other media
+  static constexpr double brief = 1e-5;  // legs that may have no length
+
   struct Root {
     Index source, medium, node, simplex;
     Point beside;
