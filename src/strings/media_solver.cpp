@@ -33,7 +33,7 @@ bool MediaSolver::solve(std::span<const MediaSource> sources, const Limits& limi
     if (found == nullptr) continue;
     if (next.distance > best_[point_of(next.node)] + reach_[next.node]) continue;
     if (counts_.expansions >= limits.expansions) return false;
-    if (limits.progress && counts_.expansions % 4096 == 0)
+    if (limits.progress && counts_.expansions % 512 == 0)
       limits.progress(counts_.expansions, next.distance);
     ++counts_.expansions;
     expand(next.node, Label(*found));

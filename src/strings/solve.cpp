@@ -28,7 +28,7 @@ bool Solver::solve(std::span<const Source> sources, const Limits& limits) {
     const Label* found = vertices_[next.vertex].find(next.chain, next.distance);
     if (found == nullptr) continue;
     if (counts_.expansions >= limits.expansions) return false;
-    if (limits.progress && counts_.expansions % 4096 == 0)
+    if (limits.progress && counts_.expansions % 1024 == 0)
       limits.progress(counts_.expansions, next.distance);
     ++counts_.expansions;
     expand(next.vertex, Label(*found));

@@ -35,7 +35,7 @@ struct Source {
 struct Limits {
   double radius = std::numeric_limits<double>::infinity();
   std::size_t expansions = std::numeric_limits<std::size_t>::max();
-  /// Told about every 4096 expansions how many there were, and how far the front is.
+  /// Called every 1024 expansions or oftener with how many there were, and how far the front is.
   std::function<void(std::size_t, double)> progress;
 };
 

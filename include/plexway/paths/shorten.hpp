@@ -22,9 +22,4 @@ template <class Real>
 [[nodiscard]] Path shortened(const TriangleMesh<Real>& mesh, std::span<const PathPoint> path,
                              std::span<const std::array<double, 3>> positions = {});
 
-extern template Path shortened(const TriangleMesh<float>&, std::span<const PathPoint>,
-                               std::span<const std::array<double, 3>>);
-extern template Path shortened(const TriangleMesh<double>&, std::span<const PathPoint>,
-                               std::span<const std::array<double, 3>>);
-
 }  // namespace plexway
