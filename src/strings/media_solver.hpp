@@ -62,6 +62,7 @@ class MediaSolver {
   [[nodiscard]] const Counts& counts() const { return counts_; }
 
  private:
+  using Kind = MediaSpace::Kind;
   struct Root {
     Index source, medium, node, simplex;
     Point beside;
