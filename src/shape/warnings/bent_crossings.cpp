@@ -10,6 +10,7 @@
 #include <plexway/shape/complex.hpp>
 
 #include "complexes/mixed/joined_pieces.hpp"
+#include "strings/mixed_space.hpp"
 
 namespace plexway {
 namespace {
@@ -83,6 +84,7 @@ SolidBends solid_bends(const AnyDomain& domain) {
     SolidBends found;
     if constexpr (std::is_same_v<C, MixedComplex<float>> ||
                   std::is_same_v<C, MixedComplex<double>>) {
+      if (MixedSpace::of(complex)->media) return found;  // strings find these ways
       const auto joined = complex.joined();
       const C& whole = joined ? joined->domain : complex;
       if (whole.pieces().size() == 1) return found;
@@ -105,6 +107,7 @@ BentCrossings bent_crossings(const AnyDomain& domain) {
   return with_complex(domain, []<class C>(const C& complex) -> BentCrossings {
     if constexpr (std::is_same_v<C, MixedComplex<float>> ||
                   std::is_same_v<C, MixedComplex<double>>) {
+      if (MixedSpace::of(complex)->media) return {};
       const auto joined = complex.joined();
       return find(joined ? joined->domain : complex);
     } else {
