@@ -102,7 +102,7 @@ void MediaSpace::Builder::find_rows() {
       for (std::size_t j = i + 1; j < all.size(); ++j) {
         const Line &a = lines[all[i]], &b = lines[all[j]];
         if (a.media != b.media || a.patches != b.patches || a.is_wire != b.is_wire) continue;
-        const auto from = [&](const Line& l) {
+        const auto from = [&, v = v](const Line& l) {
           return strings::unit(points[l.end[0] == v ? l.end[1] : l.end[0]] - points[v]);
         };
         if (alike(from(a), -1. * from(b))) sets.unite(all[i], all[j]);

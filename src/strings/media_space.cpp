@@ -163,8 +163,9 @@ Point MediaSpace::beside(Index place, Index medium, const Point& at, const Point
           continue;
         const double st = wu / length, su = -wt / length;
         const double step = 1e-4 * std::min(1., length);
+        const double middle_t = at0 + wt / 2, middle_u = au + wu / 2;
         const auto is_patch = [&](double by) {
-          return holds(p, at0 + wt / 2 + by * st, au + wu / 2 + by * su, 0);
+          return holds(p, middle_t + by * st, middle_u + by * su, 0);
         };
         const Point across = st * plane.along + su * plane.wide;
         const bool ahead = is_patch(step);
