@@ -87,7 +87,6 @@ bool MediaSolver::collapse(Attempt& a, std::size_t leg, bool& useless) {
   if (norm(in) == 0 || norm(out) == 0) return false;
   if (space_->kind(place_of(a, i)) == Kind::bend && space_->kind(place_of(a, leg)) == Kind::bend)
     return false;
-  ++counts_.collapses;
   const std::array<Index, 2> both = {a.doors[i], a.doors[leg]};
   if (before == after) {
     if (gains(in, out, both, before, at, none) && a.splits++ < 3) {
@@ -145,7 +144,6 @@ bool MediaSolver::leave_patch(Attempt& a, std::size_t i) {
   const Index row = space_->leaves(patch, from, {s.at[i], s.wide[i]});
   const Index door = row == none ? none : space_->door(row, space_->medium_behind(a.doors[i]));
   if (door == none) return false;
-  ++counts_.slides;
   replace(a, i, i + 1, std::array{door}, s.points[i]);
   return true;
 }
@@ -167,7 +165,6 @@ bool MediaSolver::lift_off_row(Attempt& a, std::size_t i) {
   if ((low && dot(force, line.along) < -least) || (high && dot(force, line.along) > least)) {
     const Index door = space_->door(space_->corner(ends[low ? 0 : 1]), after);
     if (door == none) return false;
-    ++counts_.slides;
     replace(a, i, i + 1, std::array{door}, at);
     return true;
   }
@@ -180,7 +177,6 @@ bool MediaSolver::lift_off_row(Attempt& a, std::size_t i) {
     if (by > most) most = by, best = door;
   }
   if (best == none) return false;
-  ++counts_.lifts;
   replace(a, i, i + 1, std::array{best}, at);
   return true;
 }
@@ -217,9 +213,24 @@ bool MediaSolver::lift_off_corner(Attempt& a, std::size_t i) {
     if (by > most) most = by, best = door;
   }
   if (best == none) return false;
-  ++counts_.lifts;
   replace(a, i, i + 1, std::array{best}, at);
   return true;
+}
+
+// Where a leg leads from a bend. Where rows meet in a vertex and the string bends there at both, it
+// has no length: along the other row.
+Point MediaSolver::toward(const Attempt& a, std::size_t corner, std::size_t other, Index to) const {
+  const Point& at = a.string.corner(corner);
+  if (other > 0 && other <= a.doors.size()) {
+    const Place& row = *a.string.places[other - 1];
+    const Point leg = a.string.corner(other) - at;
+    const double t = a.string.at[other - 1];
+    if (row.low < row.high && dot(leg, leg) < unmoved * unmoved) {
+      if (t < row.low + unmoved) return row.along;
+      if (t > row.high - unmoved) return -1. * row.along;
+    }
+  }
+  return end_of_leg(a, other, corner, to) - at;
 }
 
 bool MediaSolver::drop_lifted(Attempt& a, std::size_t i, Index to) {
@@ -227,8 +238,8 @@ bool MediaSolver::drop_lifted(Attempt& a, std::size_t i, Index to) {
   if (p.holds()) return false;
   const Point& at = a.string.points[i];
   const Leg &in = a.legs[i], &out = a.legs[i + 1];
-  const double from = p.angle_of(end_of_leg(a, i, i + 1, to) - at, in.from - in.to),
-               on = p.angle_of(end_of_leg(a, i + 2, i + 1, to) - at, out.to - out.from);
+  const double from = p.angle_of(toward(a, i + 1, i, to), in.from - in.to),
+               on = p.angle_of(toward(a, i + 1, i + 2, to), out.to - out.from);
   if (p.presses(from, on)) return false;
   const Point beside = end_of_leg(a, i + 1, i, to);
   replace(a, i, i + 1, {}, at);
@@ -283,14 +294,12 @@ std::size_t MediaSolver::blocked(const Attempt& a, Index to) {
     const Point from = end_of_leg(a, i, i + 1, to), end = end_of_leg(a, i + 1, i, to);
     const Leg& leg = a.legs[i];
     if (leg.known && !moved(from, leg.from) && !moved(end, leg.to)) continue;
-    ++counts_.legs;
     if (medium.room->sight().is_blocked(from, end)) return i;
   }
   return a.legs.size();
 }
 
 bool MediaSolver::insert_touched(Attempt& a, std::size_t n, Index to) {
-  ++counts_.touches;
   const Leg leg = a.legs[n];
   const Index m = medium_of_leg(a, n);
   const auto& medium = space_->media()[m];
@@ -324,7 +333,6 @@ MediaSolver::Outcome MediaSolver::settle(Attempt& a, Index to, double least) {
   hold();
   bool useless = false;
   for (int round = 0; round < most; ++round) {
-    ++counts_.pulls;
     puller_.pull(string);
     if (rearrange(a, to, useless)) {
       if (string.held > 0 && string.bends() < string.held + 2) hold();
@@ -393,7 +401,6 @@ MediaSolver::Outcome MediaSolver::improve(Attempt& a, Index to, Outcome outcome)
           for (Index d = space_->first_door(one); d < space_->last_door(one); ++d) {
             const Index m = space_->medium_behind(d);
             if (m == before || m == after || space_->door(two, m) == none) continue;
-            ++counts_.pairs;
             const std::array<Index, 2> doors = {d, last};
             if (gains(in, out, doors, before, at, kind == Kind::row ? q : none) && tries(i, doors))
               return true;

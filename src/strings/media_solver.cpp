@@ -186,15 +186,17 @@ void MediaSolver::prepare(Index node, const Label& label) {
     a.string.places.push_back(place(space_->place_of(d)));
     a.string.slowness.push_back(slowness(space_->medium_behind(d)));
   }
-  ++counts_.pulls;
   a.string.hold(0);
   puller_.pull(a.string);
+  // Pulled from elsewhere it is the same; else its legs are not known.
+  const bool same =
+      std::abs(offset(a) + a.string.length - label.distance) < 1e-9 * (1 + label.distance);
   a.legs.clear();
   for (std::size_t i = 0; i <= n; ++i)
     a.legs.push_back({a.string.corner(i), a.string.corner(i + 1), true});
   for (const bool again : {false, true})  // then ends know the sides of cracks from each other
     for (std::size_t i = 0; i <= n && (!again || n > 0); ++i)
-      a.legs[i] = {end_of_leg(a, i, i + 1, node), end_of_leg(a, i + 1, i, node), true};
+      a.legs[i] = {end_of_leg(a, i, i + 1, node), end_of_leg(a, i + 1, i, node), same};
 }
 
 // What a string that goes on through a place at the end of another one is at least as long as.
@@ -224,7 +226,6 @@ MediaSolver::Outcome MediaSolver::offer(Index from, const Label& label, Index to
     hints_.resize(chains_.size(), {});
   }
   if (at.knows(chain)) return Outcome::longer;
-  if (door != none) ++counts_.through;
   const Outcome outcome = attempt(from, label, to, door);
   // Where it was blocked it may come past on another side from another node.
   if (outcome != Outcome::stuck && !attempt_.touched) at.remember(chain);
@@ -232,7 +233,6 @@ MediaSolver::Outcome MediaSolver::offer(Index from, const Label& label, Index to
 }
 
 MediaSolver::Outcome MediaSolver::attempt(Index from, const Label& label, Index to, Index door) {
-  ++counts_.offers;
   prepare(from, label);
   attempt_ = base_;
   Attempt& a = attempt_;
@@ -240,7 +240,6 @@ MediaSolver::Outcome MediaSolver::attempt(Index from, const Label& label, Index 
   if (door != none) append(a, door, a.string.to);
   Outcome outcome = settle(a, to, unreached);
   if (outcome != Outcome::longer) outcome = improve(a, to, outcome);
-  if (outcome == Outcome::stuck) ++counts_.stuck;
   if (outcome == Outcome::free) accept(a, to);
   return outcome;
 }
@@ -256,7 +255,6 @@ void MediaSolver::go_by_corner(Index from, const Label& label, Index to) {
 
 // And what is shorter past it.
 void MediaSolver::offer_corner(Index from, const Label& label, Index to) {
-  ++counts_.corners;
   go_by_corner(from, label, to);
   Outcome outcome = settle(attempt_, to, unreached);
   if (outcome != Outcome::longer) outcome = improve(attempt_, to, outcome);

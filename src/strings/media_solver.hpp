@@ -55,11 +55,6 @@ class MediaSolver {
   [[nodiscard]] Path path(Index point);
   [[nodiscard]] std::size_t bytes() const;
 
-  struct Counts {
-    std::size_t expansions = 0, labels = 0, offers = 0, through = 0, pulls = 0, legs = 0,
-                touches = 0, slides = 0, lifts = 0, collapses = 0, corners = 0, stuck = 0,
-                pairs = 0;
-  };
   [[nodiscard]] const Counts& counts() const { return counts_; }
 
  private:
@@ -141,6 +136,8 @@ class MediaSolver {
   }
   [[nodiscard]] Point end_of_leg(const Attempt& a, std::size_t corner, std::size_t other,
                                  Index to) const;
+  [[nodiscard]] Point toward(const Attempt& a, std::size_t corner, std::size_t other,
+                             Index to) const;
   [[nodiscard]] bool is_edge(const Attempt& a) const;
   [[nodiscard]] double limit(Index node, const Point& last) const;
   [[nodiscard]] Point last_leg(const Attempt& a) const {

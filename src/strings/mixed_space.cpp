@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <variant>
 
 #include <plexway/error.hpp>
 
+#include "complexes/common/disjoint_sets.hpp"
 #include "complexes/mixed/joined_pieces.hpp"
 #include "complexes/mixed/joined_solids.hpp"
 
@@ -56,16 +56,8 @@ class MixedSpace::Builder {
 
   // Vertices that are one are one point; they must lie together.
   bool place() {
-    std::vector<Index> of(domain_.vertex_count());
-    std::iota(of.begin(), of.end(), Index{0});
-    const auto root = [&](Index v) {
-      while (of[v] != v) v = of[v] = of[of[v]];
-      return v;
-    };
-    for (const auto& [v, w] : domain_.outer_welds()) {
-      const Index a = root(v), b = root(w);
-      of[std::max(a, b)] = std::min(a, b);
-    }
+    DisjointSets sets(domain_.vertex_count());
+    for (const auto& [v, w] : domain_.outer_welds()) sets.unite(v, w);
     double size = 0;
     for (const Piece& piece : domain_.pieces()) {
       const auto own = domain_.positions(piece);
@@ -75,9 +67,9 @@ class MixedSpace::Builder {
         size = std::max(size, norm(at_.back() - at_.front()));
       }
     }
-    point_.assign(of.size(), none);
-    for (Index v = 0; v < of.size(); ++v) {
-      const Index r = root(v);
+    point_.assign(domain_.vertex_count(), none);
+    for (Index v = 0; v < point_.size(); ++v) {
+      const Index r = sets.find(v);
       if (norm(at_[v] - at_[r]) > 1e-7 * size) return false;
       if (r == v) {
         point_[v] = static_cast<Index>(parts_.points.size());
@@ -206,14 +198,9 @@ class MixedSpace::Builder {
       Index face, corner;  // the corner opposite
     };
     std::vector<Side> sides;
-    std::vector<Index> facet(parts_.faces.size());
-    std::iota(facet.begin(), facet.end(), Index{0});
-    const auto root = [&](Index f) {
-      while (facet[f] != f) f = facet[f] = facet[facet[f]];
-      return f;
-    };
+    DisjointSets facet(parts_.faces.size());
     const std::vector<Index> covered = strings::covered_by(parts_);
-    for (Index f = 0; f < facet.size(); ++f)
+    for (Index f = 0; f < parts_.faces.size(); ++f)
       for (std::size_t k = 0; k < 3 && covered[f] == none; ++k) {
         const Index a = parts_.faces[f][k], b = parts_.faces[f][(k + 1) % 3];
         sides.push_back({{std::min(a, b), std::max(a, b)}, f, parts_.faces[f][(k + 2) % 3]});
@@ -234,9 +221,9 @@ class MixedSpace::Builder {
       if (norm(off(sides[i]) + off(sides[i + 1])) > 1e-7)
         folded.insert(folded.end(), {sides[i].face, sides[i + 1].face});
       else
-        facet[root(sides[i].face)] = root(sides[i + 1].face);
+        facet.unite(sides[i].face, sides[i + 1].face);
     }
-    for (Index& f : folded) f = root(f);
+    for (Index& f : folded) f = facet.find(f);
     std::sort(folded.begin(), folded.end());
     return static_cast<std::size_t>(std::unique(folded.begin(), folded.end()) - folded.begin());
   }
