@@ -1,6 +1,7 @@
 #include <plexway/cloud/point_cloud.hpp>
 #include <plexway/surface/smoothing.hpp>
 
+#include "shape/cloud_words.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/simplex_edges.hpp"
 #include "shape/words.hpp"

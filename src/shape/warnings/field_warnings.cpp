@@ -10,6 +10,7 @@
 #include <plexway/shape/complex.hpp>
 
 #include "complexes/simplicial/simplex_notches.hpp"
+#include "shape/cloud_words.hpp"
 #include "shape/collapsed.hpp"
 #include "shape/spelling.hpp"
 #include "shape/warnings/bent_crossings.hpp"

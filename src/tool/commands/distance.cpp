@@ -17,6 +17,7 @@
 #include "executors/same_work.hpp"
 #include "shape/arguments/require.hpp"
 #include "shape/arguments/source_argument.hpp"
+#include "shape/cloud_words.hpp"
 #include "shape/fill.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/info/rank_counts.hpp"
