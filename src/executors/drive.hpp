@@ -8,15 +8,15 @@
 #include <plexway/executors.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
-#include "executors/threads/crew.hpp"
-#include "executors/threads/piece_crew.hpp"
+#include "executors/threads/piece_scheduler.hpp"
 #include "executors/threads/piece_size.hpp"
-#include "executors/threads/unordered.hpp"
+#include "executors/threads/scheduler.hpp"
 #include "labels/alone.hpp"
 #include "labels/finish.hpp"
+#include "labels/front.hpp"
 
-/// What an executor brings to a solve: a queue for the serial parts, and a crew. All that differs
-/// between Serial and OpenMP where labels sit in simplices.
+/// What an executor brings to a solve: a queue for the serial parts, and a scheduler. All that
+/// differs between Serial and OpenMP where labels sit in simplices.
 namespace plexway {
 
 template <bool kLabels, class D, class Real, class Solve>
@@ -55,8 +55,9 @@ void drive(const OpenMP& executor, const TriangleMesh<Real>& mesh,
   }
   workspace.front.reserve(mesh.face_count());
   const DualQueue<Real> queue(workspace.front, std::numeric_limits<Real>::infinity());
-  const TeamCrew<Real, kLabels> crew(team, workspace, step_of<Real>(options), mesh.unit(), options);
-  team.hold([&] { solve(queue, PieceCrew<Real, kLabels>(crew, mesh, settings)); });
+  const TeamScheduler<Real, kLabels> scheduler(team, workspace, step_of<Real>(options), mesh.unit(),
+                                               options);
+  team.hold([&] { solve(queue, PieceScheduler<Real, kLabels>(scheduler, mesh, settings)); });
 }
 
 /// Calls `solve` with std::true_type where vertices have labels: from more than one source.

@@ -11,9 +11,10 @@ void solve_points(const E& executor, const SimplicialComplex<Real, N>& domain,
                   Workspace<Real>& kept, DistanceField<Real>& field) {
   WorkspaceState<Real>& workspace = kept.state();
   check(sources, options, domain);
-  drive<true>(executor, domain, sources, options, workspace, [&](auto queue, const auto& crew) {
-    simplicial::solve(domain, sources, options, workspace, queue, crew, field);
-  });
+  drive<true>(executor, domain, sources, options, workspace,
+              [&](auto queue, const auto& scheduler) {
+                simplicial::solve(domain, sources, options, workspace, queue, scheduler, field);
+              });
 }
 
 PLEXWAY_SIMPLICES(PLEXWAY_COMPILE_HERE)

@@ -3,7 +3,7 @@
 #include "executors/run.hpp"
 #include "executors/solve_solid.hpp"
 #include "executors/supported.hpp"
-#include "executors/threads/owned_crew.hpp"
+#include "executors/threads/owned_scheduler.hpp"
 #include "strings/solid_strings.hpp"
 
 namespace plexway {
@@ -22,8 +22,8 @@ void solve_points(const E& executor, const TetMesh<Real>& mesh,
     return;
   }
   workspace.pieces.counts().start();
-  drive<true>(executor, mesh, sources, options, workspace, [&](auto queue, const auto& crew) {
-    solid::solve_with<Real, true>(mesh, sources, options, workspace, queue, crew, field);
+  drive<true>(executor, mesh, sources, options, workspace, [&](auto queue, const auto& scheduler) {
+    solid::solve_with<Real, true>(mesh, sources, options, workspace, queue, scheduler, field);
   });
   if (sources.size() == 1) field.label.clear();
   workspace.pieces.counts().tell(field.statistics);

@@ -18,14 +18,14 @@
 #include "labels/simplicial/simplex_string_rule.hpp"
 #include "labels/wavefront.hpp"
 
-/// A solve on a complex of any dimension, for any crew.
+/// A solve on a complex of any dimension, for any scheduler.
 namespace plexway::simplicial {
 
 /// The least that the simplices at a vertex offer; then the sources and the corners of simplices
 /// they lie in, exactly.
-template <class Real, int N, class Rule, class Front, class Crew>
+template <class Real, int N, class Rule, class Front, class Scheduler>
 void read_out(const SimplicialComplex<Real, N>& domain, std::span<const PointSource> sources,
-              const Rule& rule, const Front& front, const Crew& crew,
+              const Rule& rule, const Front& front, const Scheduler& scheduler,
               WorkspaceState<Real>& workspace) {
   workspace.vertex.assign(domain.vertex_count(), std::numeric_limits<Real>::infinity());
   workspace.vertex_source.assign(domain.vertex_count(), none);
@@ -35,12 +35,12 @@ void read_out(const SimplicialComplex<Real, N>& domain, std::span<const PointSou
     workspace.vertex_source[v] = number;
   };
   if constexpr (requires(Real d, Index n) { rule.read_vertex(0, d, n); }) {
-    crew.over(domain.vertex_count(), [&](std::size_t begin, std::size_t end) {
+    scheduler.over(domain.vertex_count(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v)
         rule.read_vertex(static_cast<Index>(v), workspace.vertex[v], workspace.vertex_source[v]);
     });
-  } else if constexpr (requires { crew.team(); }) {
-    crew.over(domain.vertex_count(), [&](std::size_t begin, std::size_t end) {
+  } else if constexpr (requires { scheduler.team(); }) {
+    scheduler.over(domain.vertex_count(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v)
         for (const Index c : domain.corners_at(static_cast<Index>(v)))
           if (const Index s = c / (N + 1); front.reached(s))
@@ -173,10 +173,10 @@ void with_rule(const SimplicialComplex<Real, N>& domain, const PropagateOptions&
 }
 
 /// One solve with a queue of its own.
-template <class Real, int N, class Queue, class Crew>
+template <class Real, int N, class Queue, class Scheduler>
 void solve(const SimplicialComplex<Real, N>& domain, std::span<const PointSource> sources,
            const PropagateOptions& options, WorkspaceState<Real>& workspace, Queue queue,
-           const Crew& crew, DistanceField<Real>& field) {
+           const Scheduler& scheduler, DistanceField<Real>& field) {
   const std::size_t simplices = domain.simplex_count();
   workspace.start(simplices, true);
   with_rule<Real, N, Queue>(domain, options, workspace, [&]<class Front>(const auto& make_rule) {
@@ -188,8 +188,8 @@ void solve(const SimplicialComplex<Real, N>& domain, std::span<const PointSource
                                                                                  front, options);
     for (std::size_t n = 0; n < sources.size(); ++n)
       propagation.seed(sources[n], static_cast<Index>(n));
-    crew.run(propagation, front, simplices);
-    read_out(domain, sources, rule, front, crew, workspace);
+    scheduler.run(propagation, front, simplices);
+    read_out(domain, sources, rule, front, scheduler, workspace);
     // The policies that study the step itself show it as it is, on surfaces too.
     std::size_t raised = 0;
     if (options.visibility == Visibility::saddles) {
@@ -198,9 +198,9 @@ void solve(const SimplicialComplex<Real, N>& domain, std::span<const PointSource
     }
 
     if (sources.size() > 1)
-      finish<Real, true>(domain, sources, options, front, workspace, crew, field);
+      finish<Real, true>(domain, sources, options, front, workspace, scheduler, field);
     else
-      finish<Real, false>(domain, sources, options, front, workspace, crew, field);
+      finish<Real, false>(domain, sources, options, front, workspace, scheduler, field);
     field.statistics.raised_vertices = raised;
   });
 }

@@ -11,7 +11,7 @@
 #include "labels/solid/solid_propagation.hpp"
 #include "labels/solid/solid_read_out.hpp"
 
-/// A solve in a solid by the plain step, for any crew.
+/// A solve in a solid by the plain step, for any scheduler.
 namespace plexway::solid {
 
 /// The sources themselves, exactly, and the corners of tetrahedra they lie in.
@@ -27,19 +27,19 @@ void read_out_sources(const TetMesh<Real>& mesh, std::span<const PointSource> so
     });
 }
 
-template <class Real, bool kLabels, class Rule, class Front, class Crew>
+template <class Real, bool kLabels, class Rule, class Front, class Scheduler>
 void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
            const PropagateOptions& options, WorkspaceState<Real>& workspace, const Rule& rule,
-           Front& front, const Crew& crew, DistanceField<Real>& field) {
+           Front& front, const Scheduler& scheduler, DistanceField<Real>& field) {
   SolidPropagation<Real, Rule, Front> propagation(mesh, rule, front, options);
   for (std::size_t n = 0; n < sources.size(); ++n)
     propagation.seed(sources[n], static_cast<Index>(n));
-  crew.run(propagation, front, mesh.tet_count());
+  scheduler.run(propagation, front, mesh.tet_count());
 
-  if constexpr (requires { crew.team(); }) {
+  if constexpr (requires { scheduler.team(); }) {
     const std::size_t vertices = mesh.vertex_count();
     start_read_out<kLabels>(vertices, workspace);
-    crew.over(vertices, [&](std::size_t begin, std::size_t end) {
+    scheduler.over(vertices, [&](std::size_t begin, std::size_t end) {
       read_out_around<Real, kLabels>(mesh, rule, front, static_cast<Index>(begin),
                                      static_cast<Index>(end), workspace);
     });
@@ -48,24 +48,24 @@ void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
   }
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
   read_out_tet_edges<Real, kLabels>(mesh, workspace, [&](const auto& wrong, const auto& look) {
-    crew.search(mesh.tet_count(), wrong, look);
+    scheduler.search(mesh.tet_count(), wrong, look);
   });
 
-  finish<Real, kLabels>(mesh, sources, options, front, workspace, crew, field);
+  finish<Real, kLabels>(mesh, sources, options, front, workspace, scheduler, field);
 }
 
 /// One solve with a queue of its own.
-template <class Real, bool kLabels, class Queue, class Crew>
+template <class Real, bool kLabels, class Queue, class Scheduler>
 void solve_with(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
                 const PropagateOptions& options, WorkspaceState<Real>& workspace, Queue queue,
-                const Crew& crew, DistanceField<Real>& field) {
+                const Scheduler& scheduler, DistanceField<Real>& field) {
   workspace.start(mesh.tet_count(), kLabels);
   const std::size_t records = mesh.tet_count() + 1;
   Wavefront<Real, PlainSolidLabel<Real>, Queue, kLabels> wave(
       workspace.marks, workspace.plain_solids.reserve(records), queue, workspace.source.data(),
       mesh.tet_count(), mesh.unit(), options);
   const PlainSolidRule<Real, decltype(wave)> rule(mesh, wave, options.visibility);
-  solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, crew, field);
+  solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, scheduler, field);
 }
 
 }  // namespace plexway::solid

@@ -15,7 +15,7 @@
 #include "labels/surface/saddle_rule.hpp"
 #include "labels/surface/triangle_propagation.hpp"
 
-/// A solve on a surface, for any crew.
+/// A solve on a surface, for any scheduler.
 namespace plexway::surface {
 
 /// The sources themselves, exactly, and the corners of triangles they lie in. `numbers`: which they
@@ -58,25 +58,27 @@ struct NoShapes {
 };
 
 /// `shapes` seeds the labels with what is no point, and reads it out after the triangles.
-template <class Real, bool kLabels, class Rule, class Front, class Crew, class Shapes = NoShapes>
+template <class Real, bool kLabels, class Rule, class Front, class Scheduler,
+          class Shapes = NoShapes>
 void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
            const PropagateOptions& options, WorkspaceState<Real>& workspace, const Rule& rule,
-           Front& front, const Crew& crew, DistanceField<Real>& field, const Shapes& shapes = {}) {
+           Front& front, const Scheduler& scheduler, DistanceField<Real>& field,
+           const Shapes& shapes = {}) {
   TrianglePropagation<Real, Rule, Front, kLabels> propagation(mesh, workspace, rule, front,
                                                               options);
   for (std::size_t n = 0; n < sources.size(); ++n)
     propagation.seed(sources[n], static_cast<Index>(n));
   shapes.seed(rule, front);
-  crew.run(propagation, front, mesh.face_count());
+  scheduler.run(propagation, front, mesh.face_count());
 
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const std::size_t vertices = mesh.vertex_count();
   workspace.vertex.assign(vertices, infinity);
   if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
-  if constexpr (requires { crew.read_out(workspace); })
-    crew.read_out(workspace);
-  else if constexpr (requires { crew.team(); })
-    read_out_triangles<Real, kLabels>(crew.team(), mesh.triangles(), rule, front, workspace);
+  if constexpr (requires { scheduler.read_out(workspace); })
+    scheduler.read_out(workspace);
+  else if constexpr (requires { scheduler.team(); })
+    read_out_triangles<Real, kLabels>(scheduler.team(), mesh.triangles(), rule, front, workspace);
   else
     read_out_triangles<Real, kLabels>(mesh.triangles(), rule, front, workspace);
   if (mesh.summary().refracting_edges > 0)  // where lengths are no metric, light may gain on itself
@@ -87,7 +89,7 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
   if (options.visibility == Visibility::saddles) {
     constexpr bool points = std::is_same_v<Shapes, NoShapes>;
     mended = mend<Real, kLabels>(mesh, points ? sources : std::span<const PointSource>(), workspace,
-                                 crew);
+                                 scheduler);
   }
 
   // Without a radius, whole fans are reached or not; so one of its corners tells of a vertex,
@@ -97,16 +99,16 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
     if (!(workspace.vertex[v] < infinity) && mesh.corner_at(v) != none &&
         (bounded || !mesh.pinched().empty() || front.reached(mesh.corner_at(v) / 3))) [[unlikely]]
       read_out_around<Real, kLabels>(mesh, rule, front, v, workspace);
-  finish<Real, kLabels>(mesh, sources, options, front, workspace, crew, field);
+  finish<Real, kLabels>(mesh, sources, options, front, workspace, scheduler, field);
   field.statistics.lowered_vertices = mended.lowered;
   field.statistics.raised_vertices = mended.raised;
 }
 
-/// One solve with a queue of its own: rule and labels by the policy, the rest by the crew.
-template <class Real, bool kLabels, class Queue, class Crew>
+/// One solve with a queue of its own: rule and labels by the policy, the rest by the scheduler.
+template <class Real, bool kLabels, class Queue, class Scheduler>
 void solve_with(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
                 const PropagateOptions& options, WorkspaceState<Real>& workspace, Queue queue,
-                const Crew& crew, DistanceField<Real>& field) {
+                const Scheduler& scheduler, DistanceField<Real>& field) {
   workspace.start(mesh.face_count(), kLabels);
   const std::size_t records = mesh.face_count() + 1;
   const auto front = [&](auto* labels) {
@@ -117,12 +119,12 @@ void solve_with(const TriangleMesh<Real>& mesh, std::span<const PointSource> sou
   if (options.visibility == Visibility::saddles) {
     auto wave = front(workspace.saddles.reserve(records));
     const SaddleRule<Real, decltype(wave)> rule(mesh.triangles(), wave, options.vectorised);
-    solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, crew, field);
+    solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, scheduler, field);
   } else {
     auto wave = front(workspace.plain.reserve(records));
     const PlainRule<Real, decltype(wave)> rule(mesh.triangles(), wave, options.visibility,
                                                options.probe);
-    solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, crew, field);
+    solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, scheduler, field);
   }
 }
 

@@ -38,9 +38,11 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
   }
   with_labels(sources, [&](auto labels) {
     constexpr bool kLabels = decltype(labels)::value;
-    drive<kLabels>(executor, mesh, sources, options, workspace, [&](auto queue, const auto& crew) {
-      surface::solve_with<Real, kLabels>(mesh, sources, options, workspace, queue, crew, field);
-    });
+    drive<kLabels>(executor, mesh, sources, options, workspace,
+                   [&](auto queue, const auto& scheduler) {
+                     surface::solve_with<Real, kLabels>(mesh, sources, options, workspace, queue,
+                                                        scheduler, field);
+                   });
   });
   field.statistics.windows_gave_up = by_windows;
   counts.tell(field.statistics);

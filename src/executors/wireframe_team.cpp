@@ -14,7 +14,7 @@
 #include "executors/threads/piece_size.hpp"
 #include "executors/threads/supersteps.hpp"
 #include "executors/threads/team.hpp"
-#include "executors/threads/unordered.hpp"
+#include "labels/front.hpp"
 #include "labels/pieces/wire_piece.hpp"
 #include "labels/wireframe/wire_propagation.hpp"
 #include "labels/wireframe/wire_step.hpp"

@@ -4,7 +4,7 @@
 
 namespace plexway {
 
-/// Who does the work of a solve: one thread (crew.hpp: a team).
+/// Who does the work of a solve: one thread (scheduler.hpp: a team).
 struct Alone {
   template <class Propagation, class Front>
   void run(Propagation& propagation, Front&, std::size_t) const {

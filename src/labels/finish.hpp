@@ -36,17 +36,18 @@ ChosenQueue<Real> queue_for(const PropagateOptions& options, FrontStorage& stora
 
 /// From what was read out, in the numbers and the unit inside, to the caller's: nothing beyond the
 /// radius, +inf where unreached, a source's own offset to the last bit.
-template <class Real, bool kLabels, class Complex, class Front, class Crew>
+template <class Real, bool kLabels, class Complex, class Front, class Scheduler>
 void finish(const Complex& complex, std::span<const PointSource> sources,
             const PropagateOptions& options, const Front& front,
-            const WorkspaceState<Real>& workspace, const Crew& crew, DistanceField<Real>& field) {
+            const WorkspaceState<Real>& workspace, const Scheduler& scheduler,
+            DistanceField<Real>& field) {
   NumberRange<Real>::check_unit(complex.unit());
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const std::span<const Index> inside = complex.vertices_inside();
   const Real unit = static_cast<Real>(complex.unit()), radius = static_cast<Real>(options.radius);
   field.distance.resize(inside.size());
   field.label.resize(kLabels ? inside.size() : 0);
-  crew.over(inside.size(), [&](std::size_t begin, std::size_t end) {
+  scheduler.over(inside.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const Real d = workspace.vertex[inside[v]] * unit;
       const bool in = d <= radius;

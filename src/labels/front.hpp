@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <plexway/common/ids.hpp>
+#include <plexway/solve/options.hpp>
 
 namespace plexway {
 
@@ -193,5 +194,12 @@ class ChosenQueue {
   PriorityQueue<Real> heap_;
   bool by_priority_;
 };
+
+/// The width of the limit in the unit inside, where `edge` is what counts as an edge.
+template <class Real>
+Real step_of(const PropagateOptions& options, double edge = 1) {
+  return options.schedule == Schedule::fifo ? std::numeric_limits<Real>::infinity()
+                                            : static_cast<Real>(options.step * edge);
+}
 
 }  // namespace plexway

@@ -58,9 +58,6 @@ class PlainRule {
     return PlainRule<Real, Other>(triangles, front, aim_);
   }
 
-  void prefetch(Index) const {}
-  void prefetch_around(Index) const {}
-
   /// Over one edge, to every triangle there. (A plain step never drops an update: there is no last
   /// resort to take.)
   void cross(Index f, std::size_t side, bool) {

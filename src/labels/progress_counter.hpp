@@ -19,18 +19,18 @@ class ProgressCounter {
       : options_(options), often_(often) {}
 
   /// Counts from 0 again.
-  void restart() { told_ = 0; }
+  void restart() { reported_ = 0; }
   /// After so many expansions since then; `progress()` is asked for only when it is told.
   template <class Now>
   void count(std::size_t expansions, const Now& progress) {
-    if (!options_.progress || expansions - told_ < often_) return;
-    told_ = expansions;
+    if (!options_.progress || expansions - reported_ < often_) return;
+    reported_ = expansions;
     tell_progress(options_, progress());
   }
 
  private:
   const PropagateOptions& options_;
-  std::size_t often_, told_ = 0;
+  std::size_t often_, reported_ = 0;
 };
 
 }  // namespace plexway

@@ -39,18 +39,18 @@ class EdgeReadOut {
         distance_(workspace.vertex.data()) {}
 
   /// Looks at `faces` triangles, which(0) and so on, ascending; in all others nothing is reached.
-  template <class Crew, class Which>
-  Lowered run(const Crew& crew, std::size_t faces, const Which& which) {
+  template <class Scheduler, class Which>
+  Lowered run(const Scheduler& scheduler, std::size_t faces, const Which& which) {
     rooms_.start();
     if constexpr (kLabels) {
       Room& room = rooms_.take();
-      crew.search(
+      scheduler.search(
           faces, [&](std::size_t n) { return wrong(which(n)); },
           [&](std::size_t n) { look(which(n), room); });
       rooms_.give_back(room);
     } else {
       std::mutex mutex;
-      crew.over(faces, [&](std::size_t begin, std::size_t end) {
+      scheduler.over(faces, [&](std::size_t begin, std::size_t end) {
         Room* room = nullptr;
         {
           const std::scoped_lock lock(mutex);
@@ -180,17 +180,17 @@ class EdgeReadOut {
 
 /// No vertex is farther than a neighbour and the edge between, or the chord. A triangle keeps one
 /// label, the best for its centre, and now and then, at a corner on a ragged boundary, that one is
-/// poor. The same bits with any crew. Cost: one pass, and n log n for the n vertices near what it
-/// changes.
-template <class Real, bool kLabels, class Crew, class Which>
+/// poor. The same bits with any scheduler. Cost: one pass, and n log n for the n vertices near what
+/// it changes.
+template <class Real, bool kLabels, class Scheduler, class Which>
 Lowered read_out_edges(const TriangleMesh<Real>& mesh, WorkspaceState<Real>& workspace,
-                       const Crew& crew, std::size_t faces, const Which& which) {
-  return EdgeReadOut<Real, kLabels>(mesh, workspace).run(crew, faces, which);
+                       const Scheduler& scheduler, std::size_t faces, const Which& which) {
+  return EdgeReadOut<Real, kLabels>(mesh, workspace).run(scheduler, faces, which);
 }
-template <class Real, bool kLabels, class Crew>
+template <class Real, bool kLabels, class Scheduler>
 Lowered read_out_edges(const TriangleMesh<Real>& mesh, WorkspaceState<Real>& workspace,
-                       const Crew& crew) {
-  return read_out_edges<Real, kLabels>(mesh, workspace, crew, mesh.face_count(),
+                       const Scheduler& scheduler) {
+  return read_out_edges<Real, kLabels>(mesh, workspace, scheduler, mesh.face_count(),
                                        [](std::size_t f) { return f; });
 }
 

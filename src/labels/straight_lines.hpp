@@ -41,18 +41,18 @@ class StraightLines {
   /// Raises what is below, by more than rounding. Returns how many were by more than 1e-4. Cost: 24
   /// bytes read a vertex; and for one that is below the line to its own source, as rounding leaves
   /// every other in the plane, the sources that lie about as near.
-  template <bool kLabels, class Crew>
-  std::size_t raise(WorkspaceState<Real>& workspace, const Crew& crew) const {
-    return raise<kLabels>(workspace, crew, workspace.vertex.size(),
+  template <bool kLabels, class Scheduler>
+  std::size_t raise(WorkspaceState<Real>& workspace, const Scheduler& scheduler) const {
+    return raise<kLabels>(workspace, scheduler, workspace.vertex.size(),
                           [](std::size_t v) { return v; });
   }
   /// Of `count` vertices, which(0) and so on; all others are right.
-  template <bool kLabels, class Crew, class Which>
-  std::size_t raise(WorkspaceState<Real>& workspace, const Crew& crew, std::size_t count,
+  template <bool kLabels, class Scheduler, class Which>
+  std::size_t raise(WorkspaceState<Real>& workspace, const Scheduler& scheduler, std::size_t count,
                     const Which& which) const {
     if (positions_.empty() || count_ == 0) return 0;
     std::atomic<std::size_t> raised{0};
-    crew.over(count, [&](std::size_t begin, std::size_t end) {
+    scheduler.over(count, [&](std::size_t begin, std::size_t end) {
       std::size_t some = 0;
       Line line(*this, 0);
       for (std::size_t n = begin; n < end; ++n) {

@@ -28,8 +28,6 @@ template <class Real, class SimplexLabel, class Queue, bool kLabels>
 class Wavefront {
  public:
   using Label = SimplexLabel;
-  /// Is what is accepted expanded while what was fetched for it is still near?
-  static constexpr bool expands_soon() { return true; }
 
   /// `labels` and `source` have room for a sentinel behind the simplices.
   Wavefront(VisitMarks& marks, Label* labels, Queue queue, Index* source, std::size_t simplices,

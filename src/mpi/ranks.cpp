@@ -234,8 +234,8 @@ class Leader {
   void tell() {
     if (!request_.progress) return;
     const auto now = Clock::now();
-    if (now - told_ < std::chrono::milliseconds(50)) return;
-    told_ = now;
+    if (now - reported_ < std::chrono::milliseconds(50)) return;
+    reported_ = now;
     const double seconds = std::chrono::duration<double>(now - start_).count();
     const std::size_t rows = rows_;
     const double rate = static_cast<double>(rows) / std::max(seconds, 1e-9);
@@ -256,7 +256,7 @@ class Leader {
   std::atomic<std::size_t> rows_{0};
   PairsReport report_;
   std::vector<std::byte> message_;
-  Clock::time_point start_ = Clock::now(), told_ = start_;
+  Clock::time_point start_ = Clock::now(), reported_ = start_;
 };
 
 PairsReport follow(const PairsRequest& request, const RowRanks::Solve& solve) {

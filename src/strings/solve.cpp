@@ -79,7 +79,6 @@ void Solver::prepare(Index vertex, const Label& label) {
   for (std::size_t i = a.places.size(); i-- > 0; chain = chains_[chain].parent)
     a.string.at[i] = hints_[chain];
   for (const Index p : a.places) a.string.places.push_back(place(p));
-  ++counts_.pulls;
   a.string.hold(0);
   puller_.pull(a.string);
   // Pulled from elsewhere it is the same; else its legs are not known.
@@ -110,7 +109,6 @@ void Solver::offer(Index from, const Label& label, Index to) {
 
 // A vertex' string, pulled to another one.
 Solver::Outcome Solver::attempt(Index from, const Label& label, Index to) {
-  ++counts_.offers;
   prepare(from, label);
   attempt_ = base_;
   attempt_.touched = false;
@@ -123,7 +121,6 @@ Solver::Outcome Solver::attempt(Index from, const Label& label, Index to) {
 
 // On from the vertex itself along the edge, and what is shorter past it.
 void Solver::attempt_corner(Index from, const Label& label, Index to) {
-  ++counts_.corners;
   prepare(from, label);
   attempt_ = base_;
   attempt_.string.to = point(to);
@@ -220,14 +217,12 @@ std::size_t Solver::blocked(const Attempt& a, Index to) {
     const Point from = end_of_leg(a, i, i + 1, to), end = end_of_leg(a, i + 1, i, to);
     const Leg& leg = a.legs[i];
     if (leg.known && !moved(from, leg.from) && !moved(end, leg.to)) continue;
-    ++counts_.legs;
     if (space_->sight().is_blocked(from, end)) return i;
   }
   return a.legs.size();
 }
 
 bool Solver::insert_touched(Attempt& a, std::size_t n, Index to) {
-  ++counts_.touches;
   const Leg leg = a.legs[n];
   const Point from = end_of_leg(a, n, n + 1, to), end = end_of_leg(a, n + 1, n, to);
   const std::array<Index, 2> known = {n > 0 ? a.places[n - 1] : none,
@@ -266,7 +261,6 @@ Solver::Outcome Solver::settle(Attempt& a, Index to, double least) {
   const double offset = sources_[a.source].offset;
   hold();
   for (int round = 0; round < most; ++round) {
-    ++counts_.pulls;
     puller_.pull(string);
     if (drop_lifted(a, to)) {
       if (string.held > 0 && string.bends() < string.held + 2) hold();
@@ -321,7 +315,6 @@ Solver::Outcome Solver::past_corners(Attempt& a, Index to, Outcome outcome) {
 // instead.
 bool Solver::past_corner(Attempt& a, Index to, Outcome& outcome, std::size_t begin, std::size_t end,
                          Index vertex) {
-  ++counts_.held;
   const Point &at = space_->point(vertex), in = a.string.corner(begin) - at,
               out = a.string.corner(end + 1) - at;
   if (!corner_.find(*space_, vertex, in, out)) return false;

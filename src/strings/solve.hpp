@@ -41,8 +41,7 @@ struct Limits {
 
 /// What it took.
 struct Counts {
-  std::size_t expansions = 0, labels = 0, offers = 0, pulls = 0, legs = 0, touches = 0, held = 0,
-              corners = 0;
+  std::size_t expansions = 0, labels = 0;
 };
 
 class Solver {

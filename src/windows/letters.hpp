@@ -44,34 +44,34 @@ struct Leaving {
   void start(std::size_t shared) {
     windows.clear();
     vertices.clear();
-    is_told_.assign(shared, 0);
+    is_sent_.assign(shared, 0);
   }
   void tell(Index vertex) {
-    if (is_told_[vertex] == 0) vertices.push_back(vertex);
-    is_told_[vertex] = 1;
+    if (is_sent_[vertex] == 0) vertices.push_back(vertex);
+    is_sent_[vertex] = 1;
   }
   /// Forgets the vertices of which known(vertex) is true.
   template <class Known>
   void leave_out(const Known& known) {
     std::erase_if(vertices, [&](Index v) {
       if (!known(v)) return false;
-      is_told_[v] = 0;
+      is_sent_[v] = 0;
       return true;
     });
   }
   /// All has been posted.
   void clear() {
     windows.clear();
-    for (const Index v : vertices) is_told_[v] = 0;
+    for (const Index v : vertices) is_sent_[v] = 0;
     vertices.clear();
   }
   [[nodiscard]] std::size_t bytes() const {
     return windows.capacity() * sizeof(windows[0]) + vertices.capacity() * sizeof(Index) +
-           is_told_.capacity();
+           is_sent_.capacity();
   }
 
  private:
-  std::vector<std::uint8_t> is_told_;
+  std::vector<std::uint8_t> is_sent_;
 };
 
 }  // namespace plexway::windows

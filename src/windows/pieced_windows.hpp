@@ -33,16 +33,18 @@ class PiecedWindows {
   PiecedWindows(const PiecedWindows&) = delete;
   PiecedWindows& operator=(const PiecedWindows&) = delete;
 
-  /// As Windows::solve, from points alone. The crew does the work: crew.run(cut, pieces,
+  /// As Windows::solve, from points alone. The scheduler does the work: scheduler.run(cut, pieces,
   /// triangles, statistics, goes_on) until no window waits (true) or there is a reason to stop,
-  /// crew.each(count, work), and for processes that share the pieces crew.share and crew.any.
-  template <class Crew>
-  [[nodiscard]] bool solve(const Crew& crew, const WindowSources& sources,
+  /// scheduler.each(count, work), and for processes that share the pieces scheduler.share and
+  /// scheduler.any.
+  template <class Scheduler>
+  [[nodiscard]] bool solve(const Scheduler& scheduler, const WindowSources& sources,
                            const PropagateOptions& options, const typename Windows::Limit& limit) {
     labels_ = sources.labels;
     statistics_ = {};
     complete_ = true;
-    crew.each(pieces_.size(), [&](std::size_t p) { pieces_[p].begin(sources, options, limit); });
+    scheduler.each(pieces_.size(),
+                   [&](std::size_t p) { pieces_[p].begin(sources, options, limit); });
     for_each_seed(
         mesh_, sources,
         [&](Index v, double sigma, Index n) {
@@ -65,11 +67,11 @@ class PiecedWindows {
       return !too_many;
     };
     do {
-      complete_ = crew.run(patches_.cut(), std::span<Piece* const>(by_number_), mesh_.face_count(),
-                           statistics_, goes_on);
+      complete_ = scheduler.run(patches_.cut(), std::span<Piece* const>(by_number_),
+                                mesh_.face_count(), statistics_, goes_on);
       if (too_many) return false;
-      gather(crew, is_bounded);
-    } while (complete_ && !is_bounded && fill_holes(crew));
+      gather(scheduler, is_bounded);
+    } while (complete_ && !is_bounded && fill_holes(scheduler));
     return true;
   }
 
@@ -92,8 +94,8 @@ class PiecedWindows {
     Index source;
   };
 
-  template <class Crew>
-  void gather(const Crew& crew, bool is_bounded) {
+  template <class Scheduler>
+  void gather(const Scheduler& scheduler, bool is_bounded) {
     constexpr Number infinity = std::numeric_limits<Number>::infinity();
     const std::size_t vertices = mesh_.vertex_count();
     distance_.assign(vertices, infinity);
@@ -113,7 +115,7 @@ class PiecedWindows {
     // keep: the first's, or that of the first source.
     const bool agree = complete_ && !is_bounded && !labels_;
     const auto is_first = [&](std::size_t p, Index v) { return patches_.places(v)[0].piece == p; };
-    crew.each(pieces_.size(), [&](std::size_t k) {
+    scheduler.each(pieces_.size(), [&](std::size_t k) {
       const std::size_t p = pieces_[k].number();
       const auto& patch = patches_[p];
       for (std::size_t i = 0; i < patch.shared; ++i)
@@ -123,7 +125,7 @@ class PiecedWindows {
         take(patch.vertices[i], known_of(p, static_cast<Index>(i)));
     });
     std::vector<std::vector<Known>> others(patches_.count());
-    crew.share(
+    scheduler.share(
         patches_.count(),
         [&](std::size_t p, auto& parcel) {
           for (Index i = 0; i < patches_[p].vertices.size(); ++i) parcel.add(known_of(p, i));
@@ -155,10 +157,10 @@ class PiecedWindows {
   }
 
   /// As one thread would, on the whole; if there is anything at all.
-  template <class Crew>
-  bool fill_holes(const Crew& crew) {
+  template <class Scheduler>
+  bool fill_holes(const Scheduler& scheduler) {
     std::vector<char> any(pieces_.size(), 0);
-    crew.each(pieces_.size(), [&](std::size_t k) {
+    scheduler.each(pieces_.size(), [&](std::size_t k) {
       const Windows& windows = pieces_[k].windows();
       const std::size_t p = pieces_[k].number();
       bool all = true;  // usual: no look at edges
@@ -170,7 +172,7 @@ class PiecedWindows {
                            [&](Index v) { return windows.vertex_distance(v); },
                            [](Index, Index, Number) {});
     });
-    if (!crew.any(std::any_of(any.begin(), any.end(), [](char one) { return one != 0; })))
+    if (!scheduler.any(std::any_of(any.begin(), any.end(), [](char one) { return one != 0; })))
       return false;
     return Windows::fill_holes(
         mesh_.triangles(), static_cast<Index>(mesh_.face_count()),

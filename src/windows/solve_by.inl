@@ -1,4 +1,4 @@
-// The solves of WindowSolver, for any crew: included where one is compiled.
+// The solves of WindowSolver, for any scheduler: included where one is compiled.
 
 #include <algorithm>
 #include <atomic>
@@ -16,17 +16,17 @@
 namespace plexway::windows {
 
 template <class Real>
-template <class Crew>
-auto& WindowSolver<Real>::exact(const Crew& crew) {
-  Pieces& all = pieces(crew.piece_size(), crew.deal());
+template <class Scheduler>
+auto& WindowSolver<Real>::exact(const Scheduler& scheduler) {
+  Pieces& all = pieces(scheduler.piece_size(), scheduler.deal());
   if (!all.exact) all.exact.emplace(mesh_, all.patches);
   return *all.exact;
 }
 
 template <class Real>
-template <class Crew>
-auto& WindowSolver<Real>::merged(const Crew& crew) {
-  Pieces& all = pieces(crew.piece_size(), crew.deal());
+template <class Scheduler>
+auto& WindowSolver<Real>::merged(const Scheduler& scheduler) {
+  Pieces& all = pieces(scheduler.piece_size(), scheduler.deal());
   if (!all.merged) all.merged.emplace(mesh_, all.patches);
   return *all.merged;
 }
@@ -40,9 +40,9 @@ inline constexpr bool works_in_place<MergedWindows<Real>> = true;
 /// From the numbers and the unit inside to the caller's: nothing beyond the radius, an offset to
 /// the last bit.
 template <class Real>
-template <bool kLabels, class Windows, class Crew>
+template <bool kLabels, class Windows, class Scheduler>
 void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& sources,
-                                  const PropagateOptions& options, bool mends, const Crew& crew,
+                                  const PropagateOptions& options, bool mends, const Scheduler& scheduler,
                                   WorkspaceState<Real>& workspace,
                                   DistanceField<Real>& field) const {
   NumberRange<Real>::check_unit(mesh_.unit());
@@ -52,7 +52,7 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
   if constexpr (!works_in_place<Windows>) workspace.vertex.resize(inside.size());
   if constexpr (kLabels) workspace.vertex_source.resize(inside.size());
   std::atomic<std::size_t> reached_vertices{0};
-  crew.over(inside.size(), [&](std::size_t begin, std::size_t end) {
+  scheduler.over(inside.size(), [&](std::size_t begin, std::size_t end) {
     std::size_t some = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const Index v = static_cast<Index>(i);
@@ -75,13 +75,13 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
   if (mends) {
     const auto mended = surface::mend<Real, kLabels>(
         mesh_, sources.only_points() ? sources.points : std::span<const PointSource>(), workspace,
-        crew, part ? &*part : nullptr);
+        scheduler, part ? &*part : nullptr);
     field.statistics.lowered_vertices = mended.lowered;
     field.statistics.raised_vertices = mended.raised;
   }
   field.distance.resize(inside.size());
   field.label.resize(kLabels ? inside.size() : 0);
-  crew.over(inside.size(), [&](std::size_t begin, std::size_t end) {
+  scheduler.over(inside.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       const Real d =
           static_cast<Real>(static_cast<double>(workspace.vertex[inside[v]]) * mesh_.unit());
@@ -102,7 +102,7 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
   if (reached_vertices == inside.size()) return;
   const auto triangles = mesh_.triangles();
   std::atomic<std::size_t> reached{0};
-  crew.over(
+  scheduler.over(
       part ? part->triangles.size() : mesh_.face_count(), [&](std::size_t begin, std::size_t end) {
         std::size_t some = 0;
         for (std::size_t n = begin; n < end; ++n)
@@ -113,11 +113,11 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
 }
 
 template <class Real>
-template <class Crew>
-bool WindowSolver<Real>::solve_by(const Crew& crew, const WindowSources& sources, Accuracy accuracy,
+template <class Scheduler>
+bool WindowSolver<Real>::solve_by(const Scheduler& scheduler, const WindowSources& sources, Accuracy accuracy,
                                   const PropagateOptions& options, WorkspaceState<Real>& workspace,
                                   DistanceField<Real>& field) {
-  constexpr bool alone = std::is_same_v<Crew, Alone>;
+  constexpr bool alone = std::is_same_v<Scheduler, Alone>;
   if constexpr (!alone)
     if (!sources.only_points())
       return solve_by(Alone{}, sources, accuracy, options, workspace, field);
@@ -131,19 +131,19 @@ bool WindowSolver<Real>::solve_by(const Crew& crew, const WindowSources& sources
       else
         return windows.solve(sources, options, limit, kept);
     } else {
-      return windows.solve(crew, sources, options, limit);
+      return windows.solve(scheduler, sources, options, limit);
     }
   };
   const auto take = [&](const auto& windows) {
     if (sources.labels)
-      read_out<true>(windows, sources, options, merge, crew, workspace, field);
+      read_out<true>(windows, sources, options, merge, scheduler, workspace, field);
     else
-      read_out<false>(windows, sources, options, merge, crew, workspace, field);
+      read_out<false>(windows, sources, options, merge, scheduler, workspace, field);
   };
   // Merged light has no least distance: where lengths are no metric it may gain on itself.
   const auto is_sound = [&](const auto& windows) {
     std::atomic<bool> sound{true};
-    crew.over(mesh_.vertex_count(), [&](std::size_t begin, std::size_t end) {
+    scheduler.over(mesh_.vertex_count(), [&](std::size_t begin, std::size_t end) {
       bool all = true;
       for (std::size_t v = begin; v < end; ++v)
         all &= !(windows.distance(static_cast<Index>(v)) < 0);
@@ -152,12 +152,12 @@ bool WindowSolver<Real>::solve_by(const Crew& crew, const WindowSources& sources
     return sound.load(std::memory_order_relaxed);
   };
   if (merge) {
-    auto& windows = merged(crew);
+    auto& windows = merged(scheduler);
     if (solved(windows, merge_limit(accuracy.error())) && is_sound(windows)) {
       take(windows);
       const auto inside = mesh_.vertices_inside();
       field.error.resize(inside.size());
-      crew.over(inside.size(), [&](std::size_t begin, std::size_t end) {
+      scheduler.over(inside.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v)
           field.error[v] = field.distance[v] < std::numeric_limits<Real>::infinity()
                                ? windows.error(inside[v]) * static_cast<Real>(mesh_.unit())
@@ -166,7 +166,7 @@ bool WindowSolver<Real>::solve_by(const Crew& crew, const WindowSources& sources
       return true;
     }
   }
-  auto& windows = exact(crew);
+  auto& windows = exact(scheduler);
   const bool may_give_up = options.accuracy.kind() == Accuracy::Kind::usual;
   if (!solved(windows, patience(mesh_.face_count(), !may_give_up, alone && kept_))) {
     if (may_give_up) return false;

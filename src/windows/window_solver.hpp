@@ -22,8 +22,8 @@
 
 namespace plexway::windows {
 
-/// Distances on a surface by windows, one solve after the other, by one thread or by a crew. Keeps
-/// what depends on the surface alone, and its memory.
+/// Distances on a surface by windows, one solve after the other, by one thread or by a scheduler.
+/// Keeps what depends on the surface alone, and its memory.
 template <class Real>
 class WindowSolver {
  public:
@@ -46,12 +46,13 @@ class WindowSolver {
   /// space, and none farther than a neighbour and the edge between, where triangles without an area
   /// hide it. `workspace` is for that.
   ///
-  /// A crew that is not Alone works in pieces of about crew.piece_size() triangles. Exact: the same
-  /// bits. No windows are kept. What is not only from points is solved as a whole, by one thread.
-  template <class Crew>
-  [[nodiscard]] bool solve_by(const Crew& crew, const WindowSources& sources, Accuracy accuracy,
-                              const PropagateOptions& options, WorkspaceState<Real>& workspace,
-                              DistanceField<Real>& field);
+  /// A scheduler that is not Alone works in pieces of about scheduler.piece_size() triangles.
+  /// Exact: the same bits. No windows are kept. What is not only from points is solved as a whole,
+  /// by one thread.
+  template <class Scheduler>
+  [[nodiscard]] bool solve_by(const Scheduler& scheduler, const WindowSources& sources,
+                              Accuracy accuracy, const PropagateOptions& options,
+                              WorkspaceState<Real>& workspace, DistanceField<Real>& field);
 
   /// Shall solves keep their windows?
   void keep_windows(bool keep);
@@ -68,16 +69,16 @@ class WindowSolver {
     std::optional<PiecedWindows<Real, MergedWindows<Real>>> merged;
   };
 
-  template <bool kLabels, class Windows, class Crew>
+  template <bool kLabels, class Windows, class Scheduler>
   void read_out(const Windows& windows, const WindowSources& sources,
-                const PropagateOptions& options, bool mends, const Crew& crew,
+                const PropagateOptions& options, bool mends, const Scheduler& scheduler,
                 WorkspaceState<Real>& workspace, DistanceField<Real>& field) const;
   [[nodiscard]] ExactWindows<Real>& exact(const Alone&);
   [[nodiscard]] MergedWindows<Real>& merged(const Alone&);
-  template <class Crew>
-  [[nodiscard]] auto& exact(const Crew& crew);
-  template <class Crew>
-  [[nodiscard]] auto& merged(const Crew& crew);
+  template <class Scheduler>
+  [[nodiscard]] auto& exact(const Scheduler& scheduler);
+  template <class Scheduler>
+  [[nodiscard]] auto& merged(const Scheduler& scheduler);
   [[nodiscard]] Pieces& pieces(std::size_t size, Deal deal);
 
   const TriangleMesh<Real>& mesh_;
@@ -87,7 +88,7 @@ class WindowSolver {
   std::optional<ExactWindows<Real>> exact_;
   std::optional<MergedWindows<Real>> merged_;
   std::optional<KeptWindows<Real>> kept_;
-  std::unique_ptr<Pieces> pieces_;  ///< of the last crew
+  std::unique_ptr<Pieces> pieces_;  ///< of the last scheduler
 };
 
 extern template class WindowSolver<float>;

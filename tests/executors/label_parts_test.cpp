@@ -28,8 +28,8 @@ namespace plexway::testing::label_parts_test {
 namespace {
 
 // Of pieces of a triangle or two, where each vertex is at a cut, and larger ones.
-constexpr Crew crews[] = {{1, 1, 25},  {2, 1, 25},  {3, 2, 25}, {4, 1, 25},
-                          {1, 3, 120}, {3, 1, 120}, {1, 1, 3},  {3, 2, 3}};
+constexpr Scheduler schedulers[] = {{1, 1, 25},  {2, 1, 25},  {3, 2, 25}, {4, 1, 25},
+                                    {1, 3, 120}, {3, 1, 120}, {1, 1, 3},  {3, 2, 3}};
 
 std::vector<PointSource> mixed_sources(const Surface& s, std::size_t count, unsigned seed) {
   std::mt19937 random(seed);
@@ -67,16 +67,16 @@ TEMPLATE_TEST_CASE("label parts: the same bits whatever the processes and thread
         const auto sources = mixed_sources(s, count, ++seed);
         const auto whole = solve(Serial{}, s.mesh<TestType>(), sources, options);
         std::map<std::size_t, Joined<TestType>> first;  // of each size of pieces
-        for (const Crew& crew : crews) {
-          if (visibility != Visibility::saddles && crew.ranks > 2) continue;
-          const auto field = solve_in_parts<TestType>(s, crew, sources, options);
+        for (const Scheduler& scheduler : schedulers) {
+          if (visibility != Visibility::saddles && scheduler.ranks > 2) continue;
+          const auto field = solve_in_parts<TestType>(s, scheduler, sources, options);
           INFO("surface " << seed << ", visibility " << static_cast<int>(visibility) << ", ranks "
-                          << crew.ranks << ", pieces of " << crew.piece);
+                          << scheduler.ranks << ", pieces of " << scheduler.piece);
           CHECK((field.sound() && field.complete));
           CHECK(field.accuracy == Accuracy::fast());
           CHECK(field.statistics.reached_simplices == whole.statistics.reached_simplices);
           CHECK(parity(whole, field).reached_by_one == 0);
-          CHECK(same_bits(field, first.try_emplace(crew.piece, field).first->second));
+          CHECK(same_bits(field, first.try_emplace(scheduler.piece, field).first->second));
         }
       }
 }
@@ -201,8 +201,8 @@ TEST_CASE("label parts: every vertex a source, the same bits every time", "[thre
   }
   const std::vector<PointSource> few = {PointSource::at(20), PointSource::at(150)};
   const auto once = solve_in_parts<float>(s, {1, 1, 30}, few, by_labels());
-  for (const Crew& crew : {Crew{2, 1, 30}, Crew{2, 2, 30}})
-    CHECK(same_bits(once, solve_in_parts<float>(s, crew, few, by_labels(), 100)));
+  for (const Scheduler& scheduler : {Scheduler{2, 1, 30}, Scheduler{2, 2, 30}})
+    CHECK(same_bits(once, solve_in_parts<float>(s, scheduler, few, by_labels(), 100)));
 }
 
 // Too many windows wait there: who did not ask for them by name gets labels.

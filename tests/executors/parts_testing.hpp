@@ -55,7 +55,7 @@ struct Joined : PartField<Real> {
   [[nodiscard]] bool sound() const { return agree && geometry && reads_little; }
 };
 
-struct Crew {
+struct Scheduler {
   std::size_t ranks = 1;
   int threads = 1;
   std::size_t piece = 0;
@@ -63,7 +63,7 @@ struct Crew {
 
 /// Solves in parts by threads that meet as processes do; one alone has no ranks.
 template <class Real>
-Joined<Real> solve_in_parts(const Surface& surface, const Crew& crew,
+Joined<Real> solve_in_parts(const Surface& surface, const Scheduler& scheduler,
                             const std::vector<PointSource>& sources,
                             const PropagateOptions& options = {}, int times = 1) {
   Joined<Real> all;
@@ -103,7 +103,7 @@ Joined<Real> solve_in_parts(const Surface& surface, const Crew& crew,
       faces.push_back({part.vertex[f[0]], part.vertex[f[1]], part.vertex[f[2]]});
   };
   const auto work = [&](PieceRanks* ranks) {
-    OpenMP executor{.threads = crew.threads, .piece = crew.piece};
+    OpenMP executor{.threads = scheduler.threads, .piece = scheduler.piece};
     executor.ranks = ranks;
     const RowsOf rows(surface);
     SurfaceParts<Real> parts(executor, rows);
@@ -117,10 +117,10 @@ Joined<Real> solve_in_parts(const Surface& surface, const Crew& crew,
     for (int i = 0; i < times; ++i) field = parts.solve(sources, options);
     take(parts.part(rows), field, parts.summary());
   };
-  if (crew.ranks == 1)
+  if (scheduler.ranks == 1)
     work(nullptr);
   else
-    ThreadRanks(crew.ranks).run([&](PieceRanks& own) { work(&own); });
+    ThreadRanks(scheduler.ranks).run([&](PieceRanks& own) { work(&own); });
   auto expected = surface.faces;
   std::sort(expected.begin(), expected.end());
   std::sort(faces.begin(), faces.end());

@@ -29,8 +29,9 @@ namespace plexway::testing::piece_ranks_test {
 namespace {
 
 /// Ranks and the threads of each.
-using Crews = std::vector<std::pair<std::size_t, int>>;
-const Crews few = {{2, 1}, {3, 2}}, many = {{1, 1}, {1, 2}, {2, 1}, {2, 2}, {4, 1}, {4, 2}, {7, 1}};
+using Schedulers = std::vector<std::pair<std::size_t, int>>;
+const Schedulers few = {{2, 1}, {3, 2}},
+                 many = {{1, 1}, {1, 2}, {2, 1}, {2, 2}, {4, 1}, {4, 2}, {7, 1}};
 
 OpenMP among(OpenMP executor, PieceRanks& ranks) {
   executor.ranks = &ranks;
@@ -47,11 +48,12 @@ bool same_counts(const DistanceField<Real>& a, const DistanceField<Real>& b) {
 /// Does every rank get what one process gets, also in a second solve with the same memory?
 template <class Domain>
 void check_same_bits(const Domain& domain, const std::vector<PointSource>& sources,
-                     const PropagateOptions& options, std::size_t size, const Crews& crews = few) {
+                     const PropagateOptions& options, std::size_t size,
+                     const Schedulers& schedulers = few) {
   using Real = typename Domain::Number;
   const auto alone = solve(pieces(2, size), domain, sources, options);
   REQUIRE(alone.statistics.sent_bytes == 0);
-  for (const auto& [count, threads] : crews) {
+  for (const auto& [count, threads] : schedulers) {
     std::atomic<std::size_t> wrong{0}, sent{0};
     ThreadRanks(count).run([&, threads = threads](PieceRanks& ranks) {
       Workspace<Real> workspace;

@@ -90,7 +90,7 @@ TEST_CASE("parts: sums over sources in no triangle, whoever has read them") {
 
 TEST_CASE("parts: processes with other rows are told so") {
   const Surface s = jittered(12, 5);
-  const auto told_by = [&](std::size_t ranks, const auto& rows_of) {
+  const auto known_by = [&](std::size_t ranks, const auto& rows_of) {
     std::vector<std::string> told(ranks);
     ThreadRanks(ranks).run([&](PieceRanks& own) {
       try {
@@ -103,11 +103,12 @@ TEST_CASE("parts: processes with other rows are told so") {
   };
   for (const std::size_t ranks : {1u, 2u, 4u, 5u}) {
     CAPTURE(ranks);
-    for (const std::string& text : told_by(ranks, [&](std::size_t) -> const Surface& { return s; }))
+    for (const std::string& text :
+         known_by(ranks, [&](std::size_t) -> const Surface& { return s; }))
       CHECK(text.empty());
     if (ranks == 1) continue;
     const auto refused = [&](const auto& rows_of) {
-      for (const std::string& text : told_by(ranks, rows_of))
+      for (const std::string& text : known_by(ranks, rows_of))
         CHECK(text.find("the ranks of one solve need the same domain") == 0);
     };
     const auto refused_of = [&](const Surface& other, std::size_t odd) {

@@ -28,7 +28,8 @@ namespace plexway::testing::surface_parts_test {
 
 namespace {
 
-constexpr Crew crews[] = {{1, 1, 25}, {2, 1, 25}, {3, 2, 25}, {4, 1, 25}, {1, 3, 120}, {3, 1, 120}};
+constexpr Scheduler schedulers[] = {{1, 1, 25}, {2, 1, 25},  {3, 2, 25},
+                                    {4, 1, 25}, {1, 3, 120}, {3, 1, 120}};
 
 std::vector<PointSource> mixed_sources(const Surface& s, std::size_t count, unsigned seed) {
   std::mt19937 random(seed);
@@ -70,12 +71,12 @@ void check_known(const Surface& s, const PointSource& source, const std::vector<
   for (const std::size_t piece : {2u, 9u, 60u})
     for (const std::size_t ranks : {1u, 3u}) {
       CAPTURE(piece, ranks);
-      const Crew crew{ranks, 1, piece};
-      const auto exact = solve_in_parts<double>(s, crew, {source}, at(Accuracy::exact()));
+      const Scheduler scheduler{ranks, 1, piece};
+      const auto exact = solve_in_parts<double>(s, scheduler, {source}, at(Accuracy::exact()));
       CHECK(worst_of(exact.distance, known) < 1e-12);
       CHECK(exact.sound());
       CHECK(exact.reached == known.size());
-      const auto merged = solve_in_parts<double>(s, crew, {source}, at(Accuracy::accurate()));
+      const auto merged = solve_in_parts<double>(s, scheduler, {source}, at(Accuracy::accurate()));
       CHECK(worst_of(merged.distance, known) < merged_within);
       CHECK(merged.sound());
     }
@@ -92,16 +93,17 @@ TEST_CASE("parts: exact windows are those of the whole") {
       const auto options = at(Accuracy::exact());
       const auto whole = solve(Serial{}, mesh, sources, options);
       std::vector<Joined<double>> found;
-      for (const Crew& crew : crews) {
-        found.push_back(solve_in_parts<double>(s, crew, sources, options));
-        INFO("surface " << seed << ", ranks " << crew.ranks << ", pieces of " << crew.piece);
+      for (const Scheduler& scheduler : schedulers) {
+        found.push_back(solve_in_parts<double>(s, scheduler, sources, options));
+        INFO("surface " << seed << ", ranks " << scheduler.ranks << ", pieces of "
+                        << scheduler.piece);
         const auto& field = found.back();
         CHECK(worst_of(field.distance, whole.distance) < 1e-12);
         CHECK(field.sound());
         CHECK(field.complete);
         CHECK(field.accuracy == Accuracy::exact());
         CHECK(field.summary.mean_edge == Approx(mesh.unit()).epsilon(1e-12));
-        CHECK(same_bits(field, found[crew.piece == 25 ? 0 : 4]));
+        CHECK(same_bits(field, found[scheduler.piece == 25 ? 0 : 4]));
       }
       // Whose a vertex is, where two are not all but as near.
       if (count == 1) continue;
@@ -134,11 +136,12 @@ TEMPLATE_TEST_CASE("parts: merged windows have the same bits whatever the proces
       exact.distance.assign(in_double.distance.begin(), in_double.distance.end());
       const auto serial = solve(Serial{}, s.mesh<TestType>(), sources, at(Accuracy::accurate()));
       std::vector<Joined<TestType>> found;
-      for (const Crew& crew : crews) {
-        found.push_back(solve_in_parts<TestType>(s, crew, sources, at(Accuracy::accurate())));
-        INFO("surface " << seed << ", ranks " << crew.ranks << ", pieces of " << crew.piece);
+      for (const Scheduler& scheduler : schedulers) {
+        found.push_back(solve_in_parts<TestType>(s, scheduler, sources, at(Accuracy::accurate())));
+        INFO("surface " << seed << ", ranks " << scheduler.ranks << ", pieces of "
+                        << scheduler.piece);
         CHECK((found.back().sound() && found.back().complete));
-        CHECK(same_bits(found.back(), found[crew.piece == 25 ? 0 : 4]));
+        CHECK(same_bits(found.back(), found[scheduler.piece == 25 ? 0 : 4]));
       }
       for (const std::size_t i : {0u, 4u}) {
         const Parity p = parity(exact, found[i]), q = parity(exact, serial);
@@ -232,8 +235,8 @@ TEST_CASE("parts: what is apart is not reached, whoever has it") {
   const Index alone = s.add(3, 3), last = s.add(200, 0);
   for (const std::size_t ranks : {1u, 2u, 4u}) {
     CAPTURE(ranks);
-    const Crew crew{ranks, 1, 20};
-    const auto field = solve_in_parts<double>(s, crew, {PointSource::at(5)});
+    const Scheduler scheduler{ranks, 1, 20};
+    const auto field = solve_in_parts<double>(s, scheduler, {PointSource::at(5)});
     CHECK(field.sound());
     CHECK(field.reached == shift);
     CHECK(field.beside_source == shift - 1);
@@ -241,15 +244,15 @@ TEST_CASE("parts: what is apart is not reached, whoever has it") {
     for (Index v = 0; v < s.positions.size(); ++v)
       CHECK(std::isfinite(field.distance[v]) == (v < shift));
     // From there, and from a vertex of no triangle.
-    const auto other =
-        solve_in_parts<double>(s, crew, {PointSource::at(shift), {.vertex = last, .offset = .25}});
+    const auto other = solve_in_parts<double>(
+        s, scheduler, {PointSource::at(shift), {.vertex = last, .offset = .25}});
     CHECK(other.reached == far.positions.size() + 1);
     CHECK(other.distance[last] == .25);
     CHECK(other.label[last] == 1);
     CHECK(std::isinf(other.distance[alone]));
     CHECK(other.label[alone] == none);
     CHECK(std::isinf(other.distance[5]));
-    const auto nothing = solve_in_parts<double>(s, crew, {PointSource::at(last)});
+    const auto nothing = solve_in_parts<double>(s, scheduler, {PointSource::at(last)});
     CHECK(nothing.reached == 1);
     CHECK(nothing.beside_source == 0);
     CHECK(nothing.distance[last] == 0);
@@ -306,8 +309,8 @@ TEST_CASE("parts: the same bits every time") {
   for (Position& p : s.positions) p[2] = .2 * std::sin(7 * p[0]) * std::cos(5 * p[1]);
   const std::vector<PointSource> sources = {PointSource::at(20), PointSource::at(150)};
   const auto once = solve_in_parts<float>(s, {1, 1, 30}, sources);
-  for (const Crew& crew : {Crew{2, 1, 30}, Crew{2, 2, 30}}) {
-    CHECK(same_bits(once, solve_in_parts<float>(s, crew, sources, {}, 100)));
+  for (const Scheduler& scheduler : {Scheduler{2, 1, 30}, Scheduler{2, 2, 30}}) {
+    CHECK(same_bits(once, solve_in_parts<float>(s, scheduler, sources, {}, 100)));
   }
 }
 

@@ -95,7 +95,7 @@ TEST_CASE("ranks solve one field, bit for bit what threads solve") {
   const std::string surface = folder.write("hills.off", hills()),
                     solid = folder.write("blocks.mesh", blocks());
   const auto same = [&](const std::string& input, const Words& options,
-                        const std::vector<std::pair<int, int>>& crews) {
+                        const std::vector<std::pair<int, int>>& schedulers) {
     const std::string alone = folder.at("alone.npy"), together = folder.at("ranks.npy");
     const Outcome threads =
         run_tool(from(input, options + Words{"--executor", "openmp", "--threads", "2", "--json",
@@ -105,7 +105,7 @@ TEST_CASE("ranks solve one field, bit for bit what threads solve") {
     const auto expected = threads.json();
     CHECK(expected["supersteps"] > 3);
     CHECK(expected["messages"] > 100);
-    for (const auto& [count, each] : crews) {
+    for (const auto& [count, each] : schedulers) {
       CAPTURE(input, count, each);
       const Outcome run =
           run_ranks(count, from(input, options + Words{"--threads", std::to_string(each), "--json",

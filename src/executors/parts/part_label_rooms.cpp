@@ -106,10 +106,10 @@ void PartLabelRooms<Real>::mark_saddles(const Team& team) {
   const auto parts = pieces_.parts();
   std::vector<std::vector<Around>> around(all_.size());
   // Of vertices that only ghosts have, whose word it is: the first peer's.
-  std::vector<std::vector<std::size_t>> told_by(all_.size());
+  std::vector<std::vector<std::size_t>> known_by(all_.size());
   team.each(all_.size(), [&](std::size_t i) {
     around[i] = pieces_around(parts[i]);
-    told_by[i].assign(around[i].size() - parts[i].vertices.size(), ~std::size_t{0});
+    known_by[i].assign(around[i].size() - parts[i].vertices.size(), ~std::size_t{0});
   });
   tell_of_ghosts(
       team.ranks(), pieces_,
@@ -120,7 +120,7 @@ void PartLabelRooms<Real>::mark_saddles(const Team& team) {
         for (const Index v : all_[i].triangles[ghost].corner) {
           const auto told = mail.take<Around>();
           if (v < parts[i].vertices.size()) continue;
-          std::size_t& by = told_by[i][v - parts[i].vertices.size()];
+          std::size_t& by = known_by[i][v - parts[i].vertices.size()];
           if (by <= peer) continue;
           by = peer;
           around[i][v] = told;

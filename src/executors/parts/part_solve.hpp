@@ -20,7 +20,7 @@
 #include "executors/parts/part_sources.hpp"
 #include "executors/parts/parted_labels.hpp"
 #include "executors/parts/parted_windows.hpp"
-#include "executors/threads/window_crew.hpp"
+#include "executors/threads/window_scheduler.hpp"
 #include "windows/merged_windows.hpp"
 
 namespace plexway {
@@ -46,7 +46,7 @@ class PartSolve {
         pieces_(pieces),
         sources_(part_sources(team.ranks(), pieces, sources)),
         options_(options),
-        crew_({team, workspace_, 0, pieces.unit(), options}, piece_size) {
+        scheduler_({team, workspace_, 0, pieces.unit(), options}, piece_size) {
     workspace_.pieces.counts().start();
   }
 
@@ -54,7 +54,7 @@ class PartSolve {
   template <class Windows>
   bool by(PartedWindows<Real, Windows>& windows, const typename Windows::Limit& limit) {
     bool solved = false;
-    team_.hold([&] { solved = windows.solve(crew_, sources_, options_, limit); });
+    team_.hold([&] { solved = windows.solve(scheduler_, sources_, options_, limit); });
     expansions_ = windows.statistics().expansions;
     if (!solved) return false;
     constexpr bool merged = std::is_same_v<typename Windows::Limit, windows::MergeLimit>;
@@ -245,7 +245,7 @@ class PartSolve {
   PartSources sources_;
   const PropagateOptions& options_;
   WorkspaceState<Real> workspace_;
-  WindowCrew<Real> crew_;
+  WindowScheduler<Real> scheduler_;
   std::vector<PartDistances<Real>> known_;
   std::size_t expansions_ = 0;
   PartField<Real> field_;

@@ -78,13 +78,13 @@ PartSources part_sources(PieceRanks* ranks, const PartPieces<Real>& pieces,
     const auto positions = part.mesh->positions();
     // Those named by numbers that the piece has; here_as(source) is which it is there.
     const auto take = [&](const Named& named, std::span<const Index> numbers, const auto& here_as,
-                          const auto& is_told, const auto& where) {
+                          const auto& is_sent, const auto& where) {
       for (Index k = 0; k < numbers.size(); ++k)
         named.at(numbers[k], [&](Index n) {
           here.points.push_back(sources[n]);
           here_as(here.points.back()) = k;
           here.numbers.push_back(n);
-          if (is_told(k)) tell(n, where(here.points.back()), part.origin);
+          if (is_sent(k)) tell(n, where(here.points.back()), part.origin);
         });
     };
     take(

@@ -14,9 +14,9 @@
 #include "executors/parts/part_label_rooms.hpp"
 #include "executors/parts/part_sources.hpp"
 #include "executors/solve_surface.hpp"
-#include "executors/threads/piece_crew.hpp"
+#include "executors/threads/piece_scheduler.hpp"
 #include "executors/threads/supersteps.hpp"
-#include "executors/threads/unordered.hpp"
+#include "labels/front.hpp"
 #include "labels/pieces/triangle_piece.hpp"
 #include "labels/surface/triangle_propagation.hpp"
 
@@ -47,9 +47,9 @@ struct PlainInParts {
 };
 
 /// One solve by labels on a surface in parts: the pieces of this process. As surface::solve by a
-/// PieceCrew, but that nobody looks at the whole: who has a seed, a vertex where fans touch or a
-/// triangle beside an unreached one does there what would be done on the whole. All processes call
-/// everything here.
+/// PieceScheduler, but that nobody looks at the whole: who has a seed, a vertex where fans touch or
+/// a triangle beside an unreached one does there what would be done on the whole. All processes
+/// call everything here.
 template <class Real, class Like, bool kLabels>
 class PartedLabels {
  public:

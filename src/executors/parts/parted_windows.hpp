@@ -33,14 +33,14 @@ class PartedWindows {
   PartedWindows(const PartedWindows&) = delete;
   PartedWindows& operator=(const PartedWindows&) = delete;
 
-  /// As Windows::solve. `crew` as PiecedWindows has it.
-  template <class Crew>
-  [[nodiscard]] bool solve(const Crew& crew, const PartSources& sources,
+  /// As Windows::solve. `scheduler` as PiecedWindows has it.
+  template <class Scheduler>
+  [[nodiscard]] bool solve(const Scheduler& scheduler, const PartSources& sources,
                            const PropagateOptions& options, const typename Windows::Limit& limit) {
     labels_ = sources.all.size() > 1;
     statistics_ = {};
     const windows::WindowSources all(sources.all);
-    crew.each(windows_.size(), [&](std::size_t i) {
+    scheduler.each(windows_.size(), [&](std::size_t i) {
       windows_[i].begin(all, options, limit);
       seed(i, sources.here[i]);
     });
@@ -52,10 +52,10 @@ class PartedWindows {
       return !too_many;
     };
     do {
-      complete_ = crew.run(pieces_.cut(), std::span<Piece* const>(by_number_),
-                           pieces_.summary().faces, statistics_, goes_on);
+      complete_ = scheduler.run(pieces_.cut(), std::span<Piece* const>(by_number_),
+                                pieces_.summary().faces, statistics_, goes_on);
       if (too_many) return false;
-    } while (complete_ && !is_bounded && fill_holes(crew));
+    } while (complete_ && !is_bounded && fill_holes(scheduler));
     return true;
   }
 
@@ -102,10 +102,10 @@ class PartedWindows {
   }
 
   /// Each in its piece; the others hear of it by letters.
-  template <class Crew>
-  bool fill_holes(const Crew& crew) {
+  template <class Scheduler>
+  bool fill_holes(const Scheduler& scheduler) {
     std::vector<char> any(windows_.size(), 0);
-    crew.each(windows_.size(), [&](std::size_t i) {
+    scheduler.each(windows_.size(), [&](std::size_t i) {
       const PartPiece<Real>& part = pieces_.parts()[i];
       Windows& windows = windows_[i].windows();
       bool all = true;  // usual: no look at edges
@@ -118,7 +118,7 @@ class PartedWindows {
                              windows.seed_hole(w, way, windows.source(v), windows.vertex_error(v));
                            });
     });
-    return crew.any(std::any_of(any.begin(), any.end(), [](char one) { return one != 0; }));
+    return scheduler.any(std::any_of(any.begin(), any.end(), [](char one) { return one != 0; }));
   }
 
   const PartPieces<Real>& pieces_;

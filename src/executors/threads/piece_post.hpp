@@ -95,7 +95,7 @@ class PiecePost {
     to_.resize(deal.count);
     out_.resize(deal.count);
     from_.resize(deal.count);
-    told_.resize(deal.count);
+    reported_.resize(deal.count);
   }
 
   [[nodiscard]] bool alone() const { return ranks_ == nullptr; }
@@ -109,18 +109,19 @@ class PiecePost {
     for (std::size_t peer = 0; peer < cut.peer_count(); ++peer)
       if (const std::size_t owner = deal_.owner(cut.peers[peer].piece);
           owner != deal_.ours && box.has_letters(superstep, peer))
-        told_[owner].push_back(static_cast<Index>(peer));
-    for (std::size_t r = 0; r < told_.size(); ++r) {
-      if (told_[r].empty()) continue;
-      MailHead head{piece, static_cast<Index>(told_[r].size()), 0};
-      for (const Index peer : told_[r])
+        reported_[owner].push_back(static_cast<Index>(peer));
+    for (std::size_t r = 0; r < reported_.size(); ++r) {
+      if (reported_[r].empty()) continue;
+      MailHead head{piece, static_cast<Index>(reported_[r].size()), 0};
+      for (const Index peer : reported_[r])
         head.letters += box.template letters<Letter>(superstep, peer).size();
       to_[r].add(head);
-      for (const Index peer : told_[r])
+      for (const Index peer : reported_[r])
         to_[r].add(MailEntry{
             peer, static_cast<Index>(box.template letters<Letter>(superstep, peer).size())});
-      for (const Index peer : told_[r]) to_[r].add(box.template letters<Letter>(superstep, peer));
-      told_[r].clear();
+      for (const Index peer : reported_[r])
+        to_[r].add(box.template letters<Letter>(superstep, peer));
+      reported_[r].clear();
     }
   }
 
@@ -168,7 +169,7 @@ class PiecePost {
   std::vector<Parcel> to_;  // of each process
   std::vector<PieceRanks::Bytes> out_;
   std::vector<std::vector<std::byte>> from_;
-  std::vector<std::vector<Index>> told_;  // of one piece: its peers there
+  std::vector<std::vector<Index>> reported_;  // of one piece: its peers there
   std::vector<MailEntry> entries_;
 };
 

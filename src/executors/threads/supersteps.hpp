@@ -66,7 +66,7 @@ class Supersteps {
         simplices_(simplices),
         unit_(unit),
         options_(options),
-        told_(options, 65536),
+        reported_(options, 65536),
         counts_(counts),
         owned_(pieces.size()) {
     for (Index p = 0; p < pieces_.size(); ++p)
@@ -283,7 +283,7 @@ class Supersteps {
     constexpr double most_repeats = 0.3;
     plan(sums, static_cast<double>(sums.first) <
                    (1 - most_repeats) * static_cast<double>(sums.expansions));
-    told_.count(done_, [&] { return progress(sums.reached); });
+    reported_.count(done_, [&] { return progress(sums.reached); });
   }
 
   void log() {
@@ -366,7 +366,7 @@ class Supersteps {
   double unit_;
   const PropagateOptions& options_;
   std::function<bool(std::size_t, std::size_t)> goes_on_;
-  ProgressCounter told_;
+  ProgressCounter reported_;
 
   // Changed alone.
   std::vector<After> after_;

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "executors/threads/piece_size.hpp"
-#include "executors/threads/window_crew.hpp"
+#include "executors/threads/window_scheduler.hpp"
 #include "windows/solve_by.inl"
 
 namespace plexway {
@@ -20,11 +20,11 @@ bool solve_by_windows(const OpenMP& executor, const TriangleMesh<Real>& mesh,
       solver.kept() != nullptr)
     return solver.solve_by(Alone{}, sources, accuracy, options, workspace, field);
   workspace.front.reserve(mesh.face_count());
-  const TeamCrew<Real, false> crew(team, workspace, 0, mesh.unit(), options);
+  const TeamScheduler<Real, false> scheduler(team, workspace, 0, mesh.unit(), options);
   bool solved = false;
   team.hold([&] {
-    solved =
-        solver.solve_by(WindowCrew<Real>(crew, size), sources, accuracy, options, workspace, field);
+    solved = solver.solve_by(WindowScheduler<Real>(scheduler, size), sources, accuracy, options,
+                             workspace, field);
   });
   return solved;
 }

@@ -48,7 +48,7 @@ class MixedPropagation {
       : domain_(domain),
         options_(options),
         at_once_(at_once),
-        told_(options, 4096),
+        reported_(options, 4096),
         offered_(offered),
         pieces_(pieces_of(domain, workspaces)),
         hinges_(domain, pieces_),
@@ -254,7 +254,7 @@ class MixedPropagation {
     });
     spent_before_ = spent;
     if (running_ == none)
-      told_.count(expansions(), [&] { return progress(static_cast<double>(horizon)); });
+      reported_.count(expansions(), [&] { return progress(static_cast<double>(horizon)); });
   }
 
   // When nothing waits: what looks at whole pieces, then lines, and bends at vertices last, since
@@ -455,7 +455,7 @@ class MixedPropagation {
   const Domain& domain_;
   const PropagateOptions& options_;
   const PiecesAtOnce at_once_;
-  ProgressCounter told_;
+  ProgressCounter reported_;
   std::vector<Real>& offered_;  // by slot
   const std::vector<std::unique_ptr<MixedPiece<Real>>> pieces_;
   const MixedHinges<Real> hinges_;

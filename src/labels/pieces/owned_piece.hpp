@@ -50,9 +50,8 @@ class OwnedPiece {
   using Front = OwnedFront<Real, SimplexLabel, kLabels>;
   using Letter = typename Front::Letter;
   using Rule = decltype(std::declval<const Propagation&>().rule().on(std::declval<Front&>()));
-  struct NoRounds {};
-  using Expander = decltype(std::declval<const Propagation&>().expander(
-      std::declval<Front&>(), false, std::declval<const NoRounds&>()));
+  using Expander =
+      decltype(std::declval<const Propagation&>().expander(std::declval<Front&>(), false));
 
   OwnedPiece(const OwnedPieces& pieces, Index number, OwnedRoom& room,
              const typename Front::Base& front, const Propagation& propagation)
@@ -136,7 +135,7 @@ class OwnedPiece {
   void run_to(Real horizon, std::size_t most) {
     front_.queue().set_horizon(horizon);
     front_.grant(most);
-    Expander expand = propagation_.expander(front_, last_resort_, NoRounds{});
+    Expander expand = propagation_.expander(front_, last_resort_);
     const auto distance_of = [&](Index s) { return rule_.distance(s); };
     for (Index s = 0; front_.next(s, distance_of);) expand(s);
   }

@@ -12,7 +12,7 @@
 #include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "labels/shared_progress_counter.hpp"
+#include "labels/progress_counter.hpp"
 
 namespace plexway {
 
@@ -69,15 +69,9 @@ class SimplexPropagation {
   }
 
   void run() {
-    run([&](bool) { spread(); },
-        [](std::size_t count, const auto& work) { work(std::size_t{0}, count); });
-  }
-  /// With another way to expand all that waits, and to do work(begin, end) for all of a number.
-  template <class Spread, class Over>
-  void run(const Spread& spread_all, const Over& over) {
     do {
-      spread_all(false);
-    } while (!front_.out_of_budget() && pass_vertices(over));
+      spread();
+    } while (!front_.out_of_budget() && pass_vertices());
   }
 
   [[nodiscard]] const Rule& rule() const { return rule_; }
@@ -94,30 +88,28 @@ class SimplexPropagation {
     const auto distance_of = [&](Index s) { return rule_.distance(s); };
     Index s = 0;
     for (;;) {
-      while (front_.next(s, distance_of)) expand(rule_, s);
+      while (front_.next(s, distance_of)) expand(s);
       if (!front_.share_spent() || !front_.take_stock(rule_.distance(s))) return;
-      limit(rule_, front_.updates());
+      limit(front_.updates());
     }
   }
 
   /// One simplex, as far as the radius allows.
-  template <class OnFront>
-  void expand(OnFront& rule, Index s) const {
-    if (rule.distance(s) > radius_) [[unlikely]]
-      if (rule.distance(s) - longest(s) > radius_) return;
-    rule.expand(s);
+  void expand(Index s) {
+    if (rule_.distance(s) > radius_) [[unlikely]]
+      if (rule_.distance(s) - longest(s) > radius_) return;
+    rule_.expand(s);
   }
 
   /// One or two updates a simplex are usual, ten are many. Lengths that no flat simplices have can
   /// make a path shorter each time around, without end: from 128 updates a simplex on they must
   /// gain more and more.
-  template <class OnFront>
-  void limit(OnFront& rule, std::size_t updates) const {
+  void limit(std::size_t updates) {
     if (updates / 128 < domain_.simplex_count()) [[likely]]
       return;
     const double usual = 128 * static_cast<double>(domain_.simplex_count());
     const double more = static_cast<double>(updates) / usual;
-    if (more > 1) rule.set_patience(std::max(static_cast<Real>(2 - more), Real(1e-20)));
+    if (more > 1) rule_.set_patience(std::max(static_cast<Real>(2 - more), Real(1e-20)));
   }
 
   [[nodiscard]] Real longest(Index s) const {
@@ -127,17 +119,17 @@ class SimplexPropagation {
 
   /// A path may pass a vertex where parts only touch: it bends there (a hinge of dimension 0). And
   /// rules may know more of vertices. True if some simplex got a better label.
-  template <class Over>
-  bool pass_vertices(const Over& over) {
-    SharedProgressCounter progress(options_, 1024);  // some hundredths of a second
-    const auto goes_on = [&](std::size_t simplices, double distance) {
-      return progress.count(simplices, [&] {
+  bool pass_vertices() {
+    ProgressCounter progress(options_, 1024);  // some hundredths of a second
+    std::size_t looked_at = 0;
+    const auto report = [&](std::size_t simplices, double distance) {
+      progress.count(looked_at += simplices, [&] {
         return Progress{front_.expansions(), front_.reached_count(), domain_.simplex_count(),
                         distance * domain_.unit()};
       });
     };
-    if constexpr (requires { rule_.pass_vertices(0., over, goes_on); }) {
-      return rule_.pass_vertices(static_cast<double>(radius_), over, goes_on);
+    if constexpr (requires { rule_.pass_vertices(0., report); }) {
+      return rule_.pass_vertices(static_cast<double>(radius_), report);
     } else {
       bool any = false;
       for (const Index v : domain_.pinched()) any |= pass(v);

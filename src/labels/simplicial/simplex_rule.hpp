@@ -59,12 +59,6 @@ class PlainSimplexRule {
   PlainSimplexRule(const Record* records, Front& front, Visibility policy)
       : records_(records), front_(front), to_apex_(policy == Visibility::upper_bound) {}
 
-  /// The same rule on the front of another executor.
-  template <class Other>
-  [[nodiscard]] PlainSimplexRule<Real, N, Other> on(Other& front) const {
-    return {records_, front, to_apex_ ? Visibility::upper_bound : Visibility::centroid};
-  }
-
   [[nodiscard]] Real distance(Index s) const { return front_.label(s).centre; }
   [[nodiscard]] Real distance_or_inf(Index s) const {
     return front_.reached(s) ? distance(s) : std::numeric_limits<Real>::infinity();
@@ -76,10 +70,6 @@ class PlainSimplexRule {
   /// An update counts if the centre is nearer than this share of its distance. 1 but where lengths
   /// of no flat simplices would have it go on for ever.
   void set_patience(Real share) { patience_ = share; }
-
-  /// Fetches what the expansion of s will need, in two steps: s itself, then its neighbours.
-  void prefetch(Index s) const { prefetch_lines(records_[s]); }
-  void prefetch_around(Index s) const { prefetch(records_[s]); }
 
   /// Offers to all neighbours but the one the path came from.
   void expand(Index s) {
@@ -139,7 +129,7 @@ class PlainSimplexRule {
     measure(records_[t], label);
     if (!is_better(t, label)) return false;
     front_.accept(t, in, label, label.centre, source);
-    if (front_.expands_soon()) prefetch(records_[t]);
+    prefetch(records_[t]);
     return true;
   }
 

@@ -43,16 +43,9 @@ class SimplexStringRule {
         ways_(ways),
         telling_(telling) {}
 
-  /// The same rule on the front of another executor.
-  template <class Other>
-  [[nodiscard]] SimplexStringRule<Real, N, Other> on(Other& front) const {
-    return {*domain_, front, ways_, telling_};
-  }
-
   [[nodiscard]] Real distance(Index s) const { return static_cast<Real>(front_->label(s).centre); }
   void set_patience(Real share) { patience_ = share; }
 
-  void prefetch(Index s) const { __builtin_prefetch(&records_[s]); }
   void prefetch_around(Index s) const {
     for (const Index across : records_[s].across) {
       const Index t = across == none ? 0 : across >> FacetAcross::simplex_shift;
@@ -108,11 +101,11 @@ class SimplexStringRule {
   }
 
   /// The vertices' own ways (SimplexVertexWays): true if some simplex got a better label by them.
-  template <class Over, class GoesOn>
-  bool pass_vertices(double radius, const Over& over, const GoesOn& goes_on) {
+  template <class Report>
+  bool pass_vertices(double radius, const Report& report) {
     if (!any_faces_ && domain_->pinched().empty()) return false;
     return SimplexVertexWays<Real, N, SimplexStringRule>(*this, ways_, telling_)
-        .pass(radius, over, goes_on);
+        .pass(radius, report);
   }
 
   /// The least that is known of a vertex, and from which source.
@@ -137,7 +130,7 @@ class SimplexStringRule {
   bool accept(Index t, std::size_t in, const Label& label, Index source) {
     if (!(label.centre < to_beat(t))) return false;
     front_->accept(t, in, label, static_cast<Real>(label.centre), source);
-    if (front_->expands_soon()) prefetch_around(t);
+    prefetch_around(t);
     return true;
   }
   /// The string of a way at the centre of s on to a vertex of it, pulled taut.

@@ -39,18 +39,18 @@ class SimplexVertexWays {
   }
 
   /// All vertices look around, and tell each other until nobody gains. True if a simplex did.
-  /// goes_on(simplices, distance) is told around how many a thread looked since last time and how
-  /// far the vertex is, and throws Cancelled, or is false where another thread does.
-  template <class Over, class GoesOn>
-  bool pass(double radius, const Over& over, const GoesOn& goes_on) {
-    const auto is_watched = [&](Index v) {
+  /// report(simplices, distance) gets how many more were looked at and how far the vertex is, and
+  /// may throw Cancelled.
+  template <class Report>
+  bool pass(double radius, const Report& report) {
+    const auto report_at = [&](Index v) {
       const double distance = ways_[v].distance;
-      return goes_on(domain_.corners_at(v).size(), distance < infinity ? distance : 0);
+      report(domain_.corners_at(v).size(), distance < infinity ? distance : 0);
     };
-    over(domain_.vertex_count(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end && is_watched(static_cast<Index>(v)); ++v)
-        look(static_cast<Index>(v));
-    });
+    for (Index v = 0; v < domain_.vertex_count(); ++v) {
+      report_at(v);
+      look(v);
+    }
     std::vector<Index>& waiting = telling_.waiting;
     waiting.clear();
     for (Index v = 0; v < domain_.vertex_count(); ++v)
@@ -60,8 +60,10 @@ class SimplexVertexWays {
       return to_a != to_b ? to_a < to_b : a < b;
     });
     bool any = false;
-    for (std::size_t i = 0; i < waiting.size() && is_watched(waiting[i]); ++i)
+    for (std::size_t i = 0; i < waiting.size(); ++i) {
+      report_at(waiting[i]);
       any |= tell(waiting[i], radius, waiting);
+    }
     return any;
   }
 

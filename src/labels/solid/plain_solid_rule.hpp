@@ -68,9 +68,6 @@ class PlainSolidRule : kernel::HingeKernel<Real, 2> {
       if (i != in) cross(t, i, false);
   }
 
-  void prefetch(Index) const {}
-  void prefetch_around(Index) const {}
-
 #include "labels/solid/plain_solid_step.inl"
 
   void cross(Index t, Index face, bool) const {

@@ -92,9 +92,9 @@ class SolidPropagation {
     return any;
   }
 
-  /// Expands tetrahedra for the front of a thread. The rounds that it is part of do not matter.
-  template <class Other, class Rounds>
-  [[nodiscard]] auto expander(Other& front, bool last_resort, const Rounds&) const {
+  /// Expands tetrahedra for the front of a thread.
+  template <class Other>
+  [[nodiscard]] auto expander(Other& front, bool last_resort) const {
     return Expander<Other>{*this, rule_.on(front), last_resort};
   }
 
@@ -128,8 +128,6 @@ class SolidPropagation {
     bool last_resort;
 
     void operator()(Index t) const { propagation.expand(rule, t, last_resort); }
-    void far_ahead(Index t) const { rule.prefetch(t); }
-    void ahead(Index t) const { rule.prefetch_around(t); }
   };
 
   template <class Look>

@@ -116,7 +116,7 @@ class SolidRule : public SolidPaths<Real> {
     Label label;
     if (!offer_straight(from, t, face, q, label)) return;
     front_->accept(u, across & TetAcross::face_mask, label, label.centre, front_->source(t));
-    if (front_->expands_soon()) prefetch_around(u);
+    prefetch_around(u);
   }
 
   /// A path of length sigma ends at corner i of t; false if t knows a better one.
@@ -309,7 +309,7 @@ class SolidRule : public SolidPaths<Real> {
     Label label;
     if (!offer_bent(front_->label(t), t, face, u, known, last_resort, label)) return;
     front_->accept(u, across & TetAcross::face_mask, label, label.centre, front_->source(t));
-    if (front_->expands_soon()) prefetch_around(u);
+    prefetch_around(u);
   }
 
   bool seed(Index t, const Point& at, Index hinge, Real sigma, Index source) const {

@@ -38,21 +38,22 @@ struct Reached {
 /// `sources` that are nothing but points (none: not looked at), and those above a neighbour's and
 /// the edge between. Looks at what was reached alone, if that is known (else null), as all else is
 /// right.
-template <class Real, bool kLabels, class Crew>
+template <class Real, bool kLabels, class Scheduler>
 Mended mend(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
-            WorkspaceState<Real>& workspace, const Crew& crew, const Reached* reached = nullptr) {
+            WorkspaceState<Real>& workspace, const Scheduler& scheduler,
+            const Reached* reached = nullptr) {
   const StraightLines<Real> lines(mesh, sources);
   const auto raise = [&] {
-    if (reached == nullptr) return lines.template raise<kLabels>(workspace, crew);
-    return lines.template raise<kLabels>(workspace, crew, reached->vertices.size(),
+    if (reached == nullptr) return lines.template raise<kLabels>(workspace, scheduler);
+    return lines.template raise<kLabels>(workspace, scheduler, reached->vertices.size(),
                                          [&](std::size_t n) { return reached->vertices[n]; });
   };
   Mended mended;
   mended.raised = raise();
   const Lowered lowered =
       reached == nullptr
-          ? read_out_edges<Real, kLabels>(mesh, workspace, crew)
-          : read_out_edges<Real, kLabels>(mesh, workspace, crew, reached->triangles.size(),
+          ? read_out_edges<Real, kLabels>(mesh, workspace, scheduler)
+          : read_out_edges<Real, kLabels>(mesh, workspace, scheduler, reached->triangles.size(),
                                           [&](std::size_t n) { return reached->triangles[n]; });
   mended.lowered = lowered.much;
   // What sums of many edges lost by rounding.

@@ -160,12 +160,6 @@ class SaddleRule : public SaddlePoses<Real> {
     return label;
   }
 
-  /// Fetches what the expansion of f will need, in two steps: f itself, then its neighbours.
-  [[gnu::always_inline]] void prefetch(Index f) const { __builtin_prefetch(&triangles_[f]); }
-  [[gnu::always_inline]] void prefetch_around(Index f) const {
-    prefetch(triangles_[f], front_.hinge(f));
-  }
-
   /// The full rule over one edge, to every triangle there.
   [[gnu::noinline]] void cross(Index f, std::size_t edge, bool last_resort) {
     int pivot = -1;

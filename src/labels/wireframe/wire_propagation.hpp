@@ -99,8 +99,8 @@ class WirePropagation {
             spread_.reached() + others_.reached_simplices};
   }
 
-  template <class Crew>
-  void read_out(std::span<const PointSource> sources, const Crew& crew,
+  template <class Scheduler>
+  void read_out(std::span<const PointSource> sources, const Scheduler& scheduler,
                 DistanceField<Real>& field) const {
     NumberRange<Real>::check_unit(wireframe_.unit());
     const std::size_t n = wireframe_.vertex_count();
@@ -109,7 +109,7 @@ class WirePropagation {
     const Real unit = static_cast<Real>(wireframe_.unit());
     const Real radius = static_cast<Real>(options_.radius);
     const std::span<const Index> inside = wireframe_.vertices_inside();
-    crew.over(n, [&](std::size_t begin, std::size_t end) {
+    scheduler.over(n, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
         const Real d = std::abs(label_[inside[v]]) * unit;
         const bool in = d <= radius;

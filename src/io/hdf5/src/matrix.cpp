@@ -63,16 +63,16 @@ void done(herr_t status) {
 class Silence {
  public:
   Silence() {
-    H5Eget_auto2(H5E_DEFAULT, &report_, &told_);
+    H5Eget_auto2(H5E_DEFAULT, &report_, &reported_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
-  ~Silence() { H5Eset_auto2(H5E_DEFAULT, report_, told_); }
+  ~Silence() { H5Eset_auto2(H5E_DEFAULT, report_, reported_); }
   Silence(const Silence&) = delete;
   Silence& operator=(const Silence&) = delete;
 
  private:
   H5E_auto2_t report_ = nullptr;
-  void* told_ = nullptr;
+  void* reported_ = nullptr;
 };
 
 /// An identifier of HDF5's, given back by the function that its kind has.

@@ -11,8 +11,8 @@
 
 #include <plexway/surface/triangle_mesh.hpp>
 
-#include "executors/threads/crew.hpp"
 #include "executors/threads/piece_post.hpp"
+#include "executors/threads/scheduler.hpp"
 #include "executors/threads/supersteps.hpp"
 #include "labels/pieces/triangle_patches.hpp"
 #include "labels/pieces/triangle_piece.hpp"
@@ -28,10 +28,10 @@ struct PieceSettings {
 /// A team does the work of a solve on a surface, piece by piece. Seeds, pinches, revivals and
 /// repairs are done on the whole by one thread between runs, as for `Serial`, and read-out by all.
 template <class Real, bool kLabels>
-class PieceCrew : public TeamCrew<Real, kLabels> {
+class PieceScheduler : public TeamScheduler<Real, kLabels> {
  public:
-  using Base = TeamCrew<Real, kLabels>;
-  PieceCrew(const Base& base, const TriangleMesh<Real>& mesh, const PieceSettings& settings)
+  using Base = TeamScheduler<Real, kLabels>;
+  PieceScheduler(const Base& base, const TriangleMesh<Real>& mesh, const PieceSettings& settings)
       : Base(base), mesh_(mesh), settings_(settings) {}
 
   template <class Propagation, class Front>

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "executors/threads/crew.hpp"
 #include "executors/threads/piece_post.hpp"
+#include "executors/threads/scheduler.hpp"
 #include "executors/threads/supersteps.hpp"
 #include "executors/threads/team.hpp"
 
@@ -18,10 +18,10 @@ inline constexpr double window_pace = 1. / 48;
 
 /// A team solves by windows, in pieces.
 template <class Real>
-class WindowCrew : public TeamCrew<Real, false> {
+class WindowScheduler : public TeamScheduler<Real, false> {
  public:
-  using Base = TeamCrew<Real, false>;
-  WindowCrew(const Base& base, std::size_t size) : Base(base), size_(size) {}
+  using Base = TeamScheduler<Real, false>;
+  WindowScheduler(const Base& base, std::size_t size) : Base(base), size_(size) {}
 
   [[nodiscard]] std::size_t piece_size() const { return size_; }
 

@@ -18,12 +18,13 @@
 
 namespace plexway {
 
-/// What a team does for a solve besides the propagation, which crews that derive from it share out.
+/// What a team does for a solve besides the propagation, which schedulers that derive from it share
+/// out.
 template <class Real, bool kLabels>
-class TeamCrew {
+class TeamScheduler {
  public:
-  TeamCrew(const Team& team, WorkspaceState<Real>& workspace, Real step, double unit,
-           const PropagateOptions& options)
+  TeamScheduler(const Team& team, WorkspaceState<Real>& workspace, Real step, double unit,
+                const PropagateOptions& options)
       : team_(team), workspace_(workspace), step_(step), unit_(unit), options_(options) {}
 
   template <class Work>

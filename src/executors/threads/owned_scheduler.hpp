@@ -50,10 +50,10 @@ void cut_solid(OwnedPieces& pieces, const TetMesh<Real>& mesh, std::size_t size)
 /// A team does the work of a solve in a solid, piece by piece. Seeds, pinches and repairs are done
 /// on the whole by one thread between runs, as for `Serial`.
 template <class Real, bool kLabels>
-class OwnedCrew : public TeamCrew<Real, kLabels> {
+class OwnedScheduler : public TeamScheduler<Real, kLabels> {
  public:
-  using Base = TeamCrew<Real, kLabels>;
-  OwnedCrew(const Base& base, OwnedPieces& pieces) : Base(base), pieces_(pieces) {}
+  using Base = TeamScheduler<Real, kLabels>;
+  OwnedScheduler(const Base& base, OwnedPieces& pieces) : Base(base), pieces_(pieces) {}
 
   template <class Propagation, class Front>
   void run(Propagation& propagation, Front& front, std::size_t simplices) const {
@@ -140,8 +140,9 @@ void drive(const OpenMP& executor, const TetMesh<Real>& mesh, std::span<const Po
   cut_solid(pieces, mesh, size);
   workspace.front.reserve(mesh.tet_count());
   const DualQueue<Real> queue(workspace.front, std::numeric_limits<Real>::infinity());
-  const TeamCrew<Real, kLabels> crew(team, workspace, step_of<Real>(options), mesh.unit(), options);
-  team.hold([&] { solve(queue, OwnedCrew<Real, kLabels>(crew, pieces)); });
+  const TeamScheduler<Real, kLabels> scheduler(team, workspace, step_of<Real>(options), mesh.unit(),
+                                               options);
+  team.hold([&] { solve(queue, OwnedScheduler<Real, kLabels>(scheduler, pieces)); });
 }
 
 }  // namespace plexway
