@@ -270,8 +270,9 @@ TEST_CASE("paths that strings refract and bend around edges of a solid need no w
   CHECK_FALSE(in_halves(notched, .8));
   CHECK_FALSE(in_halves(whole, 2));
   CHECK_FALSE(in_halves(pierced, 1));
-  const auto with_skin = [&](const auto& there, double fast, double rough = 0) {
-    MixedShape cubes = block({3, 4, 2}, there, true);
+  const auto with_skin = [&](const auto& there, double fast, std::size_t wide = 3,
+                             double rough = 0) {
+    MixedShape cubes = block({wide, 4, 2}, there, true);
     std::mt19937 random(3);
     for (auto& p : cubes.positions)
       for (double& x : p) x += std::uniform_real_distribution<double>(-rough, rough)(random);
@@ -282,7 +283,7 @@ TEST_CASE("paths that strings refract and bend around edges of a solid need no w
   CHECK_FALSE(with_skin(notched, 2));
   CHECK_FALSE(with_skin(notched, 1));
   CHECK_FALSE(with_skin(whole, 2));
-  CHECK(with_skin(notched, 2, .05));  // a skin of many facets: labels solve it
+  CHECK(with_skin(notched, 2, 5, .05));  // a skin of many facets: labels solve it
 }
 
 TEST_CASE("cracks and several sources in mixed domains that strings solve need no warning") {
