@@ -6,12 +6,15 @@
 #include <random>
 #include <variant>
 
-#include <plexway/boost_graph/dijkstra.hpp>
-#include <plexway/boost_graph/edge_graph.hpp>
 #include <plexway/error.hpp>
 
 #include "shape/simplex_edges.hpp"
 #include "shape/stopwatch.hpp"
+
+#ifdef PLEXWAY_HAS_BOOST_GRAPH
+#include <plexway/boost_graph/dijkstra.hpp>
+#include <plexway/boost_graph/edge_graph.hpp>
+#endif
 
 namespace plexway {
 namespace {
@@ -66,9 +69,6 @@ RaceTimes race(const AnyDomain& domain, AnyField& field, EdgeDijkstra* dijkstra,
   return times;
 }
 
-#ifdef PLEXWAY_HAS_BOOST_GRAPH
-
-#endif
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
 namespace {
 
