@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "complexes/solid/outer_faces.hpp"
+#include "complexes/solid/shared_faces.hpp"
 
 namespace plexway {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <io/hdf5/include/plexway/hdf5/matrix.hpp>
 
-#include "file/unfinished.hpp"
+#include "file/new_file.hpp"
 #include "shape/modules/hdf5_functions.hpp"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <plexway/openvdb/solid.hpp>
 #include <plexway/openvdb/surface.hpp>
 
-#include "file/unfinished.hpp"
+#include "file/new_file.hpp"
 #include "shape/modules/openvdb_functions.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <plexway/pcl/files.hpp>
 #include <plexway/pcl/filters.hpp>
 
-#include "file/unfinished.hpp"
+#include "file/new_file.hpp"
 #include "shape/modules/pcl_functions.hpp"
 
 namespace {
