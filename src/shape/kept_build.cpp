@@ -65,7 +65,7 @@ AnyShape::State read_kept_build(KeptIn in) {
   each_choice(in, kind);
   each_choice(in, precision);
   each_choice(in, triangulation);
-  in.require(precision == Precision::single || precision == Precision::twice);
+  in.require(precision == Precision::float32 || precision == Precision::float64);
   in.require(triangulation == Triangulation::input || triangulation == Triangulation::delaunay ||
              triangulation == Triangulation::refined || triangulation == Triangulation::automatic);
   in(state.vertices, state.level_set_note, state.voxel);

@@ -15,7 +15,7 @@ struct BuildOptions;
 
 /// A domain that was built already, in the file that its shape was read from.
 struct KeptBuild {
-  Precision precision = Precision::single;
+  Precision precision = Precision::float32;
   Triangulation triangulation = Triangulation::automatic;  ///< as it was requested
   bool is_surface = false;                                 ///< else that means nothing
   std::unique_ptr<const KeptShape> shape;  ///< what AnyShape::State::data leaves out

@@ -469,7 +469,7 @@ std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOption
     open = std::make_unique<const OpenSimplices>(*options.mask, shape);
   else if (!shape.merged_vertices().empty())
     open = std::make_unique<const OpenSimplices>(Mask(shape.vertices(), shape.simplices()), shape);
-  const bool single = options.precision == Precision::single;
+  const bool single = options.precision == Precision::float32;
   std::shared_ptr<Prepared> made;
   if (const KeptBuild* const kept = shape.state().kept.get(); kept && kept->answers(options))
     made = single ? open_as<float>(shape, *kept) : open_as<double>(shape, *kept);

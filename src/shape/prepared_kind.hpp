@@ -31,7 +31,7 @@ class PreparedKind : public Prepared {
   using Real = RealOf<Complex>;
 
   Precision precision() const final {
-    return std::is_same_v<Real, float> ? Precision::single : Precision::twice;
+    return std::is_same_v<Real, float> ? Precision::float32 : Precision::float64;
   }
   MetricKind metric() const final { return of().metric(); }
   Combination combination(ExecutorKind executor) const final {

@@ -96,7 +96,7 @@ void require_all(const Mask* mask, const AnyShape& domain, std::span<const Place
   if (mask == nullptr) return;
   const OpenSimplices open(*mask, domain);
   const auto check = [&](Index vertex) {
-    if (vertex == none || open.reach(vertex)) return;
+    if (vertex == none || open.reached(vertex)) return;
     throw InputError(
         "--mask: vertex " + std::to_string(vertex) +
         (mask->closed_vertices()[vertex] != 0 ? " is masked" : " is cut off by the mask") +

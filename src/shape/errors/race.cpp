@@ -92,7 +92,7 @@ class BoostDijkstra final : public EdgeDijkstra {
 
 std::unique_ptr<EdgeDijkstra> make_edge_dijkstra(const AnyShape& domain, Precision precision) {
   const auto peer_of = [&](const auto& shape) -> std::unique_ptr<EdgeDijkstra> {
-    if (precision == Precision::single) return std::make_unique<BoostDijkstra<float>>(shape);
+    if (precision == Precision::float32) return std::make_unique<BoostDijkstra<float>>(shape);
     return std::make_unique<BoostDijkstra<double>>(shape);
   };
   try {

@@ -22,7 +22,8 @@ struct InfoReport {
 
 /// In double precision, on the triangles of the file. Throws InputError "FILE: cause".
 inline AnyDomain measured_domain(const AnyShape& domain) {
-  return AnyDomain(domain, {.precision = Precision::twice, .triangulation = Triangulation::input});
+  return AnyDomain(domain,
+                   {.precision = Precision::float64, .triangulation = Triangulation::input});
 }
 template <class Complex>
 const Complex& complex_as(const AnyDomain& built) {

@@ -59,7 +59,7 @@ Json bench_json(const BenchCommand& command, const AnyDomain& solver, const AnyF
   json["kind"] = domain.kind_name();
   json["vertices"] = domain.vertices();
   json["simplices"] = solver.simplices();
-  json["precision"] = precision_of(command.solve) == Precision::single ? "float" : "double";
+  json["precision"] = precision_of(command.solve) == Precision::float32 ? "float" : "double";
   json["executor"] = executor_name(result.executor);
   json["threads"] = executor_threads(result.executor);
   json["visibility"] = command.solve.visibility;

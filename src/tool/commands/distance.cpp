@@ -176,7 +176,7 @@ void run_distance(DistanceCommand command) {
   if (!command.leads()) command.quiet = true;
   const PropagateOptions wanted = propagate_options(command.solve);
   Precision precision = precision_of(command.solve);
-  if (precision == Precision::twice && command.solve.precision == "float")
+  if (precision == Precision::float64 && command.solve.precision == "float")
     command.solve.precision = "double, which exact distances need";
   Triangulation triangulation = triangulation_of(command.triangulation);
   const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
@@ -212,9 +212,9 @@ void run_distance(DistanceCommand command) {
     // Labels start from them in double precision, and go where paths are refracted.
     const bool by_labels =
         wanted.accuracy.kind() == Accuracy::Kind::fast || !command.metric.text.empty();
-    if (by_labels && precision == Precision::single && !command.solve.precision_given &&
+    if (by_labels && precision == Precision::float32 && !command.solve.precision_given &&
         command.solve.executor.name != "gl") {
-      precision = Precision::twice;
+      precision = Precision::float64;
       command.solve.precision = "double, which labels of lines need";
     }
   }

@@ -366,18 +366,18 @@ void run_distance_in_parts(DistanceCommand command) {
   check_isolines(command.isolines, command.input);
   const PropagateOptions options = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
-  if (precision == Precision::twice && command.solve.precision == "float")
+  if (precision == Precision::float64 && command.solve.precision == "float")
     command.solve.precision = "double, which exact distances need";
   const Combination cell = with({.executor = kind_of(command.solve.executor),
                                  .domain = DomainKind::surface,
                                  .dimension = 2,
-                                 .single_precision = precision == Precision::single,
+                                 .single_precision = precision == Precision::float32,
                                  .in_parts = true},
                                 options);
   check_support(command, arguments, cell);
   const std::vector<std::string> read = {command.input};
   check_output_place(command.out, read, "--out");
-  if (precision == Precision::single)
+  if (precision == Precision::float32)
     solve_in_parts<float>(command, options, arguments);
   else
     solve_in_parts<double>(command, options, arguments);

@@ -132,15 +132,15 @@ PropagateOptions propagate_options(const SolveOptions& options) {
 Precision precision_of(const SolveOptions& options) {
   const Precision typed =
       choose<Precision>("--precision", options.precision,
-                        {{"float", Precision::single}, {"double", Precision::twice}});
+                        {{"float", Precision::float32}, {"double", Precision::float64}});
   const Support support = support_of_windows({.executor = ExecutorKind::serial,
                                               .domain = DomainKind::surface,
                                               .dimension = 2,
-                                              .single_precision = typed == Precision::single,
+                                              .single_precision = typed == Precision::float32,
                                               .accuracy = accuracy_of(options.accuracy).kind()});
   if (support.refusal() != Refusal::windows_float) return typed;
   if (options.precision_given) require("--precision float", support);
-  return Precision::twice;
+  return Precision::float64;
 }
 
 void add_triangulation_option(CLI::App& command, TriangulationArgument& argument) {
