@@ -10,7 +10,7 @@
 #include <plexway/surface/smoothing.hpp>
 
 #include "io/extension.hpp"
-#include "shape/modules/pcl_functions.hpp"
+#include "shape/modules/module.hpp"
 
 #ifdef PLEXWAY_HAS_FLANN
 #include <plexway/flann/neighbours.hpp>

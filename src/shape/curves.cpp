@@ -9,8 +9,8 @@
 #include <plexway/shape/support.hpp>
 #include <plexway/solve.hpp>
 
+#include "shape/boundary.hpp"
 #include "shape/shape_state.hpp"
-#include "shape/warnings/walls.hpp"
 
 namespace plexway {
 namespace {

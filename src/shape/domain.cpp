@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "executors/supported.hpp"
-#include "shape/collapsed.hpp"
 #include "shape/inside.hpp"
 #include "shape/kept_build.hpp"
+#include "shape/merge.hpp"
 #include "shape/prepared.hpp"
 #include "shape/shape_state.hpp"
 

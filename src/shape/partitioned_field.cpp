@@ -13,7 +13,7 @@
 
 #include "file/new_file.hpp"
 #include "io/field/field_part.hpp"
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/shape_state.hpp"
 
 namespace plexway {

@@ -13,10 +13,9 @@
 
 #include "complexes/common/kept_parts.hpp"
 #include "executors/checks.hpp"
-#include "shape/collapsed.hpp"
 #include "shape/kept_build.hpp"
 #include "shape/make_complex.hpp"
-#include "shape/mixed_domain.hpp"
+#include "shape/merge.hpp"
 #include "shape/prepared_kind.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/words.hpp"

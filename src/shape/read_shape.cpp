@@ -9,12 +9,11 @@
 #include <plexway/shape/support.hpp>
 
 #include "io/extension.hpp"
-#include "shape/arguments/require.hpp"
-#include "shape/collapsed.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/fill.hpp"
 #include "shape/kept_build.hpp"
 #include "shape/merge.hpp"
-#include "shape/modules/openvdb_functions.hpp"
+#include "shape/modules/module.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/simplex_edges.hpp"
 

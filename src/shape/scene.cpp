@@ -1,17 +1,22 @@
-#include <plexway/shape/scene.hpp>
-
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
 #include <plexway/error.hpp>
+#include <plexway/shape/scene.hpp>
 #include <plexway/shape/support.hpp>
 #include <plexway/surface/normals.hpp>
 
-#include "shape/arguments/require.hpp"
+#include "complexes/common/point3.hpp"
+#include "shape/arguments/arguments.hpp"
+#include "shape/boundary.hpp"
+#include "shape/scene.hpp"
 #include "shape/simplex_edges.hpp"
-#include "shape/warnings/cloud_slopes.hpp"
 #include "shape/warnings/survey.hpp"
 
 namespace plexway {
@@ -124,6 +129,135 @@ ShapeScene::ShapeScene(const AnyShape& shape, const SceneContent& content) {
   dots.positions = content.dots;
   if (!content.label.empty()) dots.colour = {35, 40, 50};
   scene_.dots = {std::move(dots)};
+}
+
+void fill_page(io::Page& page, const AnyShape& shape, const SceneContent& content) {
+  page.positions = shape.positions();
+  require(shape.file().empty() ? "the domain" : shape.file().string(),
+          support(Purpose::pictures, shape));
+  page.value = content.distance;
+  page.label = content.label;
+  if (const auto* surface = std::get_if<io::Triangles>(&shape.data())) {
+    page.triangles = surface->triangles;
+  } else if (const auto* solid = std::get_if<io::Tets>(&shape.data())) {
+    page.triangles = boundary_faces(solid->positions, solid->tets);
+  } else if (const auto* wires = std::get_if<io::Edges>(&shape.data())) {
+    page.edges = wires->edges;
+  } else if (const auto* mixed = std::get_if<MixedShape>(&shape.data())) {
+    for (const MixedShape::Part& part : mixed->parts) {
+      page.edges.insert(page.edges.end(), part.edges.begin(), part.edges.end());
+      page.triangles.insert(page.triangles.end(), part.triangles.begin(), part.triangles.end());
+      const auto skin = boundary_faces(mixed->positions, part.tets);
+      page.triangles.insert(page.triangles.end(), skin.begin(), skin.end());
+    }
+  }
+  // Inside a solid there is something to see: of its skin the edges are left.
+  if (content.look_inside && std::holds_alternative<io::Tets>(shape.data())) {
+    for (const auto& [a, b, c] : page.triangles)
+      page.edges.insert(page.edges.end(), {{a, b}, {b, c}, {c, a}});
+    page.triangles.clear();
+  }
+  page.sources = content.sources;
+  page.targets = content.targets;
+  page.dots = content.dots;
+  page.paths = content.paths;
+}
+
+namespace {
+
+struct Extents {
+  std::array<double, 3> low, high;
+
+  Extents() {
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+  }
+  void add(const std::array<double, 3>& p) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  }
+  [[nodiscard]] double size(std::size_t k) const { return high[k] - low[k]; }
+};
+
+// How widely a part is spread across axis k, as a share of the whole.
+double spread(const Extents& part, const Extents& whole, std::size_t k) {
+  const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+  return part.size(a) / whole.size(a) * (part.size(b) / whole.size(b));
+}
+
+}  // namespace
+
+char probable_up(const AnyShape& shape) {
+  const auto positions = shape.positions();
+  if (positions.empty()) return 'z';
+  Extents whole;
+  for (const auto& p : positions) whole.add(p);
+  const std::array<double, 3> size = {whole.size(0), whole.size(1), whole.size(2)};
+  const auto least =
+      static_cast<std::size_t>(std::min_element(size.begin(), size.end()) - size.begin());
+  const double next = std::min(size[(least + 1) % 3], size[(least + 2) % 3]);
+  if (!(size[least] > 1e-3 * next)) return 'z';  // a sheet or a line is seen from where it shows
+  constexpr double flat = 0.3, clear = 0.15, clearer = 0.1;
+  if (size[least] < flat * next) return least == 1 ? 'y' : 'z';
+
+  constexpr double slab = 0.02;  // of the extent
+  std::array<Extents, 3> lower, upper;
+  for (const auto& p : positions)
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (p[k] <= whole.low[k] + slab * size[k]) lower[k].add(p);
+      if (p[k] >= whole.high[k] - slab * size[k]) upper[k].add(p);
+    }
+  std::array<double, 3> foot{};
+  for (std::size_t k = 0; k < 3; ++k)
+    foot[k] = spread(lower[k], whole, k) - spread(upper[k], whole, k);
+  const double others = std::max(std::abs(foot[0]), std::abs(foot[2]));
+  return foot[1] > clear && foot[1] > others + clearer ? 'y' : 'z';
+}
+
+namespace {
+
+// Least squares in the plane across the normal; at most twice as steep as the steepest way to a
+// neighbour, for neighbours that all but lie in a line tell nothing about the way across it.
+Point3 slope(Index i, std::span<const Point3> points, const Point3& normal,
+             std::span<const Index> around, std::span<const double> value) {
+  const Point3 x = some_perpendicular(normal), y = cross(normal, x);
+  double xx = 0, xy = 0, yy = 0, xv = 0, yv = 0, steepest = 0;
+  for (const Index n : around) {
+    const double rise = value[n] - value[i];
+    if (!std::isfinite(rise)) continue;
+    const Point3 to = minus(points[n], points[i]);
+    const double a = dot(to, x), b = dot(to, y);
+    xx += a * a, xy += a * b, yy += b * b;
+    xv += a * rise, yv += b * rise;
+    if (const double length = std::sqrt(dot(to, to)); length > 0)
+      steepest = std::max(steepest, std::abs(rise) / length);
+  }
+  const double determinant = xx * yy - xy * xy;
+  if (!(determinant > 1e-6 * (xx + yy) * (xx + yy))) return {};
+  double p = (yy * xv - xy * yv) / determinant, q = (xx * yv - xy * xv) / determinant;
+  if (const double length = std::hypot(p, q); length > 2 * steepest)
+    p *= 2 * steepest / length, q *= 2 * steepest / length;
+  Point3 found;
+  for (std::size_t k = 0; k < 3; ++k) found[k] = p * x[k] + q * y[k];
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::array<double, 3>> cloud_slopes(std::span<const std::array<double, 3>> points,
+                                                std::span<const std::array<double, 3>> normals,
+                                                const Neighbours& neighbours,
+                                                std::span<const double> value) {
+  std::vector<std::array<double, 3>> found(points.size(), Point3{});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double length = std::sqrt(dot(normals[i], normals[i]));
+    if (!(length > 0) || !std::isfinite(value[i])) continue;
+    const auto point = static_cast<Index>(i);
+    found[i] = slope(point, points, unit(normals[i]), neighbours.around(point), value);
+  }
+  return found;
 }
 
 }  // namespace plexway

@@ -11,12 +11,11 @@
 
 #include "complexes/common/closest_point.hpp"
 #include "io/extension.hpp"
-#include "shape/arguments/require.hpp"
-#include "shape/collapsed.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/fill.hpp"
 #include "shape/kept_build.hpp"
-#include "shape/modules/openvdb_functions.hpp"
-#include "shape/modules/pcl_functions.hpp"
+#include "shape/merge.hpp"
+#include "shape/modules/module.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/words.hpp"
 

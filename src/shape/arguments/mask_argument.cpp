@@ -1,4 +1,4 @@
-#include "shape/arguments/mask_argument.hpp"
+#include "shape/arguments/arguments.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -15,7 +15,6 @@
 #include <plexway/shape/open_simplices.hpp>
 
 #include "io/number_rows.hpp"
-#include "shape/arguments/require.hpp"
 #include "shape/words.hpp"
 
 namespace plexway {

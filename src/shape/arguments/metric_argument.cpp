@@ -1,4 +1,4 @@
-#include "shape/arguments/metric_argument.hpp"
+#include "shape/arguments/arguments.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,6 @@
 #include <plexway/error.hpp>
 
 #include "io/number_rows.hpp"
-#include "shape/arguments/require.hpp"
 #include "shape/words.hpp"
 
 namespace plexway {

@@ -1,9 +1,9 @@
 #include <plexway/cloud/point_cloud.hpp>
 #include <plexway/surface/smoothing.hpp>
 
-#include "shape/cloud_words.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/simplex_edges.hpp"
+#include "shape/warnings/sentences.hpp"
 #include "shape/words.hpp"
 
 namespace plexway {

@@ -1,6 +1,6 @@
 #include "shape/info/info_report.hpp"
 
-#include "shape/collapsed.hpp"
+#include "shape/merge.hpp"
 
 #include <algorithm>
 

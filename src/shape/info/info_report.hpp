@@ -1,14 +1,17 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include <plexway/io/tets.hpp>
 #include <plexway/shape/complex.hpp>
-
 #include <plexway/shape/shape.hpp>
+#include <plexway/solid/tet_mesh.hpp>
+
 #include "shape/info/report.hpp"
 #include "shape/warnings/survey.hpp"
 
@@ -57,5 +60,21 @@ std::string to_text(const Spread& spread);
 Json sizes_json(const std::optional<std::vector<std::size_t>>& sizes);
 /// Adds a line with the sizes of the largest components where there are several.
 void add_sizes(Table& table, const std::optional<std::vector<std::size_t>>& sizes);
+
+/// What is measured on a solid beside SolidSummary, in the file's unit.
+struct SolidSurvey {
+  Bounds box;
+  Spread edge;                            ///< over all edges, each once
+  double volume = 0, largest_volume = 0;  ///< of all tetrahedra, and of one
+  /// Share of tetrahedra whose longest edge is more than 10 times sqrt(3/2) their lowest height.
+  double slender_share = 0;
+  std::size_t coincident_vertices = 0;
+};
+
+/// Cost: O(n log n).
+SolidSurvey survey_solid(const io::Tets& solid);
+
+/// What may surprise the user of this solid, a sentence each.
+std::vector<std::string> solid_warnings(const SolidSummary& summary, const SolidSurvey& survey);
 
 }  // namespace plexway

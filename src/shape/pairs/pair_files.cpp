@@ -24,9 +24,8 @@
 #endif
 
 #include "io/extension.hpp"
-#include "shape/exact_number.hpp"
-#include "shape/modules/hdf5_functions.hpp"
-#include "shape/row_complex.hpp"
+#include "shape/inside.hpp"
+#include "shape/modules/module.hpp"
 #include "shape/stopwatch.hpp"
 #include "shape/with_executor.hpp"
 #include "shape/words.hpp"

@@ -7,8 +7,7 @@
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 
-#include "shape/arguments/point_argument.hpp"
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/errors/race.hpp"
 #include "shape/errors/truth_file.hpp"
 #include "shape/info/error_classes.hpp"
@@ -18,7 +17,6 @@
 #include "tool/options/input.hpp"
 #include "tool/options/solve_options.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {

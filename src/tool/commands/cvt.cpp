@@ -11,12 +11,12 @@
 #include <plexway/sampling/poisson_disk.hpp>
 #include <plexway/solve.hpp>
 
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/point_file.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/sampling_command.hpp"
+#include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -15,25 +15,21 @@
 #include <plexway/shape/support.hpp>
 
 #include "executors/same_work.hpp"
-#include "shape/arguments/require.hpp"
-#include "shape/arguments/source_argument.hpp"
-#include "shape/cloud_words.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/fill.hpp"
 #include "shape/info/info_report.hpp"
-#include "shape/info/rank_counts.hpp"
 #include "shape/info/solve_words.hpp"
-#include "shape/inside_field.hpp"
-#include "shape/level_set_file.hpp"
+#include "shape/level_sets.hpp"
 #include "shape/partitioned_field.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/warnings/field_warnings.hpp"
+#include "shape/warnings/sentences.hpp"
 #include "shape/words.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/distance_command.hpp"
 #include "tool/exit_codes.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -9,12 +9,12 @@
 #include <plexway/error.hpp>
 #include <plexway/sampling/farthest_points.hpp>
 
-#include "shape/arguments/point_argument.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/point_file.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/sampling_command.hpp"
+#include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -10,7 +10,6 @@
 #include "tool/commands/commands.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {

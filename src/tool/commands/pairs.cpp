@@ -8,16 +8,16 @@
 #include <plexway/error.hpp>
 #include <plexway/pairs/distance_matrix.hpp>
 
-#include "shape/arguments/point_argument.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/point_file.hpp"
 #include "shape/warnings/field_warnings.hpp"
-#include "tool/among.hpp"
+#include "tool/app.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/pairs_matrix.hpp"
 #include "tool/commands/sampling_command.hpp"
+#include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {

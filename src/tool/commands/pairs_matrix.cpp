@@ -16,17 +16,15 @@
 #include <plexway/error.hpp>
 #include <plexway/io/sparse_file.hpp>
 
-#include "shape/arguments/point_list.hpp"
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/info/report.hpp"
 #include "shape/kept_build.hpp"
-#include "shape/modules/hdf5_functions.hpp"
+#include "shape/modules/module.hpp"
 #include "shape/pairs/pair_files.hpp"
 #include "shape/pairs/pair_tables.hpp"
-#include "tool/among.hpp"
+#include "tool/app.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 

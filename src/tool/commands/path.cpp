@@ -18,19 +18,16 @@
 #include <plexway/shape/warnings.hpp>
 
 #include "io/number_rows.hpp"
-#include "shape/arguments/point_argument.hpp"
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/shape_state.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/exit_codes.hpp"
 #include "tool/options/input.hpp"
-#include "tool/options/metric_options.hpp"
 #include "tool/options/picture_options.hpp"
 #include "tool/options/solve_options.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -10,7 +10,6 @@
 
 #include <plexway/shape/complex.hpp>
 #include "shape/info/report.hpp"
-#include "tool/options/fill_options.hpp"
 #include "tool/options/input.hpp"
 #include "tool/options/picture_options.hpp"
 #include "tool/options/solve_options.hpp"

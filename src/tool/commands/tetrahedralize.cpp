@@ -10,15 +10,14 @@
 #include <plexway/io/tets.hpp>
 #include <plexway/shape/support.hpp>
 
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/fill.hpp"
+#include "shape/info/info_report.hpp"
 #include "shape/info/report.hpp"
-#include "shape/warnings/solid_survey.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -1,13 +1,111 @@
-#include "tool/options/input.hpp"
-
 #include <CLI/CLI.hpp>
-
 #include <algorithm>
 
 #include <plexway/error.hpp>
 #include <plexway/io/formats.hpp>
 
+#include "shape/arguments/arguments.hpp"
+#include "tool/options/input.hpp"
+
 namespace plexway::cli {
+
+void add_cloud_options(CLI::App& command, CloudPreparation& options) {
+  const std::string group = "How to make a complex of points";
+  command
+      .add_option("--k", options.k,
+                  "neighbours of each point (default 16); with --neighbour-radius at most so\n"
+                  "many, and without --k all within it")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("K")
+      ->group(group);
+  command
+      .add_option("--neighbour-radius", options.neighbour_radius,
+                  "no neighbour is farther away (default: any)")
+      ->type_name("R")
+      ->group(group);
+  command
+      .add_option("--max-normal-angle", options.max_normal_angle,
+                  "refuse neighbours whose normals differ by more degrees (default 60), such as\n"
+                  "those across a thin gap")
+      ->type_name("DEGREES")
+      ->group(group);
+  command
+      .add_flag("--denoise", options.denoise,
+                "first drop points that lie alone, by the distance to their neighbours\n"
+                "(through PCL)")
+      ->group(group);
+  command
+      .add_option("--deviations", options.deviations,
+                  "with --denoise: how many standard deviations above the mean are too many\n"
+                  "(default 3; fewer drop more)")
+      ->type_name("X")
+      ->group(group);
+  command
+      .add_flag("--smooth", options.smooth,
+                "measure along a smooth surface near the points: noise makes paths longer")
+      ->group(group);
+}
+
+void add_fill_options(CLI::App& command, FillArguments& options) {
+  const std::string group = "How to fill a surface with tetrahedra";
+  command.add_option("--max-volume", options.max_volume, "no tetrahedron is larger (default: any)")
+      ->type_name("V")
+      ->group(group);
+  command
+      .add_option("--quality", options.quality,
+                  "bound on circumradius over shortest edge, above 1 (default 2); 0: none")
+      ->type_name("R")
+      ->group(group);
+  command
+      .add_flag("--keep-surface", options.keep_surface,
+                "add points inside only: the triangles of the surface stay")
+      ->group(group);
+  command
+      .add_option("--max-seconds", options.max_seconds,
+                  "stop TetGen after S seconds (default: never)")
+      ->type_name("S")
+      ->group(group);
+  command
+      .add_option("--hole", options.hole_texts, "a point in a cavity that stays empty; repeat it")
+      ->type_name("X,Y,Z")
+      ->allow_extra_args(false)
+      ->group(group);
+  add_volume_options(command, options.volume);
+}
+
+FillOptions filling(const FillArguments& arguments) {
+  FillOptions options = arguments;
+  for (const std::string& text : arguments.hole_texts) {
+    const auto point = parse_point(text);
+    if (!point) throw UsageError("--hole '" + text + "': write X,Y,Z");
+    options.holes.push_back(*point);
+  }
+  ReadOptions all;
+  all.fill = options;
+  all.volume = arguments.volume;
+  all.spelling = Spelling::flags;
+  check(all);
+  return options;
+}
+
+void add_volume_options(CLI::App& command, VolumeOptions& options) {
+  const std::string group = "Voxels";
+  command
+      .add_flag("--repair", options.repair,
+                "take what a surface encloses, by a level set (OpenVDB): closes holes, and\n"
+                "triangles may cross, overlap and look either way")
+      ->group(group);
+  command
+      .add_option("--voxel", options.voxel,
+                  "side of a voxel, in the file's unit: for --repair (default: chosen), to cut a\n"
+                  ".vdb into tetrahedra (default: its own), for --out of a .vdb; a cloud is\n"
+                  "thinned first, to one point for each cube of this side (PCL)")
+      ->type_name("SIZE")
+      ->group(group);
+  command.add_option("--grid", options.grid, "which level set of a .vdb (default: the only one)")
+      ->type_name("NAME")
+      ->group(group);
+}
 
 std::string input_help() {
   // Lines of help are this wide.

@@ -4,17 +4,37 @@
 #include <string>
 #include <vector>
 
+#include <plexway/shape/read_options.hpp>
 #include <plexway/shape/shape.hpp>
 
-#include "tool/options/cloud_options.hpp"
-#include "tool/options/fill_options.hpp"
-#include "tool/report/progress.hpp"
+#include "tool/report/console.hpp"
 
 namespace CLI {
 class App;
 }
 
 namespace plexway::cli {
+
+/// Adds the options to a command, in a group of their own.
+void add_cloud_options(CLI::App& command, CloudPreparation& options);
+
+/// How to fill a surface with tetrahedra, as typed.
+struct FillArguments : FillOptions {
+  std::vector<std::string> hole_texts;
+  VolumeOptions volume;
+
+  /// Whether any of them but `volume` differs from its default.
+  [[nodiscard]] bool given() const { return FillOptions::given() || !hole_texts.empty(); }
+};
+
+/// Adds the options to a command, in a group of their own.
+void add_fill_options(CLI::App& command, FillArguments& options);
+
+/// The options with the holes' points. Throws UsageError for a value out of range.
+[[nodiscard]] FillOptions filling(const FillArguments& arguments);
+
+/// Adds the options to a command, in a group of their own.
+void add_volume_options(CLI::App& command, VolumeOptions& options);
 
 /// What a user hands to the tool.
 using Domain = AnyShape;

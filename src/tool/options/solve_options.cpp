@@ -1,20 +1,169 @@
-#include "tool/options/solve_options.hpp"
-
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <initializer_list>
 #include <string_view>
 #include <utility>
 
+#include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 #include <plexway/shape/support.hpp>
 #include <plexway/support.hpp>
 
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
+#include "shape/info/solve_words.hpp"
 #include "shape/tuning/policy_file.hpp"
+#include "tool/options/solve_options.hpp"
+
+namespace plexway {
+
+namespace {
+
+/// So many simplices and so many sources are worth several threads.
+constexpr std::size_t auto_simplices = 100'000, auto_sources = 64;
+/// In pieces so many simplices are, from one source (bench executors: 1.4 to 1.7 times as fast).
+constexpr std::size_t auto_in_pieces = 400'000;
+
+/// Serial or `team`, whichever solves ONE field of so many sources sooner.
+AnyExecutor fastest_executor(const AnyDomain& domain, std::size_t sources,
+                             const PropagateOptions& options, const OpenMP& team) {
+  if (!openmp_built() || options.schedule == Schedule::priority ||
+      domain.kind() == DomainKind::simplices)  // whose fields are one thread's
+    return Serial{};
+  const bool in_pieces = domain.kind() == DomainKind::surface ||
+                         domain.kind() == DomainKind::cloud || domain.kind() == DomainKind::solid ||
+                         domain.kind() == DomainKind::wireframe;
+  const bool bounded =
+      options.radius < PropagateOptions{}.radius ||
+      options.max_expansions < PropagateOptions{}.max_expansions;  // fronts may stay short
+  const bool pays = in_pieces && domain.simplices() >= auto_in_pieces;
+  const bool many = domain.simplices() >= auto_simplices && sources >= auto_sources;
+  if (!(pays || many) || bounded || team_size(team) < 2) return Serial{};
+  // A solid of several speeds is a mixed domain, and several threads are not for all options.
+  if (!domain.support(team, PointSource::at(0), options)) return Serial{};
+  return team;
+}
+
+}  // namespace
+
+}  // namespace plexway
 
 namespace plexway::cli {
+namespace {
+
+constexpr std::array<std::string_view, 4> names = {"serial", "openmp", "gl", "auto"};
+
+bool is_built(const std::string& name) {
+  const auto built = built_executors();
+  return name == "auto" || std::find(built.begin(), built.end(), name) != built.end();
+}
+
+}  // namespace
+
+void add_executor_options(CLI::App& command, ExecutorArgument& argument, const std::string& group) {
+  command
+      .add_option("--executor", argument.name,
+                  "what it runs on: serial (default), openmp, gl or auto (what is fastest\n"
+                  "for so many simplices and sources)")
+      ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option("--threads", argument.threads,
+                  "that build INPUT, and solve by openmp and auto (default: all cores)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N")
+      ->group(group);
+  command
+      .add_option("--device", argument.device,
+                  "for gl: its number in 'plexway info --devices' (default: the first\n"
+                  "graphics processor)")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("N")
+      ->group(group);
+}
+
+ExecutorKind kind_of(const ExecutorArgument& argument) {
+  return argument.name == "gl"       ? ExecutorKind::gl
+         : argument.name == "openmp" ? ExecutorKind::openmp
+                                     : ExecutorKind::serial;
+}
+
+void check_executor(const ExecutorArgument& argument, const PropagateOptions& options,
+                    bool single_precision) {
+  const std::string& name = argument.name;
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw UsageError("--executor '" + name + "': choose one of serial, openmp, gl, auto");
+  if (!is_built(name))
+    throw NotBuiltError("--executor " + name + ": not built in; see 'plexway info --devices'");
+  if (argument.device && name != "gl") throw UsageError("--device needs --executor gl");
+  if (name != "openmp" && name != "gl") return;
+  // What any domain would refuse: no need to read one.
+  const Support found = support({.executor = kind_of(argument),
+                                 .domain = DomainKind::surface,
+                                 .dimension = 2,
+                                 .single_precision = single_precision,
+                                 .visibility = options.visibility,
+                                 .schedule = options.schedule,
+                                 .accuracy = options.accuracy.kind()});
+  for (const Refusal any :
+       {Refusal::order, Refusal::gl_visibility, Refusal::windows_gl, Refusal::gl_double})
+    if (found.refusal() == any) require("--executor " + name, found);
+}
+
+Executor choose_executor(const ExecutorArgument& argument, const PropagateOptions& options,
+                         const AnyDomain& domain, std::size_t sources) {
+  const OpenMP team{.threads = argument.threads.value_or(0)};
+  if (argument.name == "openmp") return team;
+  if (argument.name == "gl") return GL{.device = argument.device.value_or(-1)};
+  return argument.name == "auto" ? fastest_executor(domain, sources, options, team) : Serial{};
+}
+
+void add_metric_option(CLI::App& command, MetricArgument& argument) {
+  command
+      .add_option(
+          "--metric", argument.text,
+          "what a step costs: speed:FILE (a number a simplex), regions:FILE (a region of a\n"
+          ".msh, .vtu or .vtk and its speed a line), tensor:FILE (xx xy xz yy yz zz a simplex;\n"
+          "xx xy yy in the plane), vertex-tensor:FILE (a vertex) or\n"
+          "lengths:FILE (vertex vertex length an edge); default: lengths in space")
+      ->type_name("KIND:FILE")
+      ->group("How to solve");
+}
+
+static std::string name_of_metric(const MetricArgument& argument, const MeasuredLengths& lengths,
+                                  std::size_t refracting_edges) {
+  if (!lengths.speeds.empty()) return argument.text + "; refracts where speeds change";
+  return argument.text +
+         (refracting_edges > 0 ? "; refracts at " + counted(refracting_edges, "edges") : "");
+}
+
+void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
+                std::size_t refracting_edges, Json& json) {
+  if (lengths == nullptr) return;
+  json["metric"] = argument.text;
+  json["refracting_edges"] = refracting_edges;
+  json["violated"] = lengths->violations.count;
+}
+
+void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
+                std::size_t refracting_edges, Table& table) {
+  if (lengths != nullptr) table.add("metric", name_of_metric(argument, *lengths, refracting_edges));
+}
+
+void add_mask_option(CLI::App& command, MaskArgument& argument) {
+  command
+      .add_option(
+          "--mask", argument.text,
+          "where no path may go: vertices:FILE or simplices:FILE, a number (0-based) a\n"
+          "line; a vertex closes the simplices about it; FILE:3,7 closes the vertices with\n"
+          "these labels (.label.gii, .annot, .label, or one a line); regions:3,7 closes\n"
+          "these regions of a .msh, .vtu or .vtk")
+      ->type_name("WHAT");
+}
+
 namespace {
 
 template <class Value>

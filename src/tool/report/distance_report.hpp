@@ -11,8 +11,8 @@
 #include <plexway/solve/distance_field.hpp>
 
 #include "io/output_place.hpp"
-#include "shape/info/rank_counts.hpp"
 #include "shape/info/report.hpp"
+#include "shape/info/solve_words.hpp"
 
 namespace CLI {
 class App;
