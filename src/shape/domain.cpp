@@ -7,7 +7,6 @@
 #include "executors/supported.hpp"
 #include "shape/inside.hpp"
 #include "shape/kept_build.hpp"
-#include "shape/merge.hpp"
 #include "shape/prepared.hpp"
 #include "shape/shape_state.hpp"
 

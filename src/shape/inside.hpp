@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <variant>
 #include <vector>
 
 #include <plexway/shape/complex.hpp>
@@ -9,6 +10,26 @@
 #include <plexway/source/source_list.hpp>
 
 namespace plexway {
+
+/// Calls point(p), vertex(v) and simplex(s) with all places that a source names, which may change
+/// them; points of simplices and balls have theirs in `point`.
+template <class Source, class Point, class Vertex, class Simplex>
+void each_place(Source& source, const Point& point, const Vertex& vertex, const Simplex& simplex) {
+  std::visit(
+      [&](auto& one) {
+        if constexpr (requires { one.barycentric; })
+          point(one);
+        else if constexpr (requires { one.centre; })
+          point(one.centre);
+        else if constexpr (requires { one.points; })
+          for (auto& at : one.points) point(at);
+        else if constexpr (requires { one.vertices; })
+          for (auto& v : one.vertices) vertex(v);
+        else
+          simplex(one.simplex);
+      },
+      source);
+}
 
 /// Sources as the complex has them: behind a mask simplices have other numbers there.
 class Inside {

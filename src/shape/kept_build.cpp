@@ -48,12 +48,10 @@ bool is_cloud_block(std::span<const std::array<double, 3>> rows, std::size_t ver
   return finite;
 }
 
-template <std::size_t N>
-bool are_simplices(std::span<const std::array<Index, N>> rows, std::size_t vertices) {
+bool are_simplices(const io::Cells& cells, std::size_t vertices) {
   Index largest = 0;
-  for (const auto& row : rows)
-    for (const Index v : row) largest = std::max(largest, v);
-  return !rows.empty() && largest < vertices;
+  for (const Index v : cells.connectivity) largest = std::max(largest, v);
+  return cells.count() > 0 && largest < vertices;
 }
 
 template <class Rows>
@@ -128,22 +126,19 @@ KeptShape::KeptShape(KeptIn& in, DomainKind kind)
 }
 
 bool KeptShape::is_sound(std::size_t n, const MeasuredLengths* lengths) const {
-  if (const auto* surface = std::get_if<Triangles>(&lent_))
-    return are_simplices<3>(surface->triangles, n) && is_cloud_block(surface->positions, n) &&
-           (lengths == nullptr ? !surface->positions.empty()
-                               : are_lengths(lengths->triangles, surface->triangles.size()));
-  if (const auto* solid = std::get_if<Tets>(&lent_))
-    return are_simplices<4>(solid->tets, n) && is_cloud_block(solid->positions, n) &&
-           (lengths == nullptr ? !solid->positions.empty()
-                               : are_lengths(lengths->tets, solid->tets.size()));
+  if (kind_ == DomainKind::cloud)
+    return lengths == nullptr && is_sound_cloud(std::get<CloudShape>(data_), n);
+  const io::Cells all = cells().front();
+  if (!are_simplices(all, n) || !is_cloud_block(positions(), n)) return false;
   if (const auto* wires = std::get_if<Edges>(&lent_)) {
     bool sound = lengths == nullptr && wires->vertices == n;
     for (const double length : wires->lengths) sound &= length >= 0 && std::isfinite(length);
-    return sound && are_simplices<2>(wires->edges, n) && is_cloud_block(wires->positions, n) &&
-           (wires->lengths.empty() ? !wires->positions.empty()
-                                   : wires->lengths.size() == wires->edges.size());
+    return sound &&
+           (wires->lengths.empty() ? !positions().empty() : wires->lengths.size() == all.count());
   }
-  return lengths == nullptr && is_sound_cloud(std::get<CloudShape>(data_), n);
+  if (lengths == nullptr) return !positions().empty();
+  return kind_ == DomainKind::surface ? are_lengths(lengths->triangles, all.count())
+                                      : are_lengths(lengths->tets, all.count());
 }
 
 std::span<const std::array<double, 3>> KeptShape::positions() const {
@@ -157,11 +152,10 @@ std::span<const std::array<double, 3>> KeptShape::positions() const {
       lent_);
 }
 
-std::size_t KeptShape::simplices() const {
-  if (const auto* surface = std::get_if<Triangles>(&lent_)) return surface->triangles.size();
-  if (const auto* solid = std::get_if<Tets>(&lent_)) return solid->tets.size();
-  if (const auto* wires = std::get_if<Edges>(&lent_)) return wires->edges.size();
-  return 0;
+std::vector<io::Cells> KeptShape::cells() const {
+  std::vector<io::Cells> found;
+  each_list(lent_, [&](const auto& list) { found.push_back(cells_of(list)); });
+  return found;
 }
 
 const AnyShape::Data& KeptShape::data() const {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <variant>
 
@@ -14,6 +13,7 @@
 #include <plexway/shape/shape.hpp>
 
 #include "complexes/common/kept_archive.hpp"
+#include "io/field/field_formats.hpp"
 
 namespace plexway {
 
@@ -31,7 +31,7 @@ class KeptShape {
   ///@{
   /// As AnyShape's.
   [[nodiscard]] std::span<const std::array<double, 3>> positions() const;
-  [[nodiscard]] std::size_t simplices() const;
+  [[nodiscard]] std::vector<io::Cells> cells() const;
   ///@}
   /// A copy, made by the first who asks; any number of threads may at once.
   [[nodiscard]] const AnyShape::Data& data() const;

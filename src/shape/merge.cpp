@@ -1,9 +1,6 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <span>
-#include <type_traits>
 #include <unordered_map>
 #include <utility>
 #include <variant>
@@ -95,8 +92,6 @@ AnyShape AnyShape::merged(double tolerance) const {
   state.data = data();
   state.kept = nullptr;
   merge_vertices(state, tolerance);
-  state.collapsed.clear();
-  find_collapsed(state);
   return of(std::move(state));
 }
 
@@ -110,8 +105,7 @@ std::size_t AnyShape::merged_count() const {
 
 namespace {
 
-template <class Corners>
-bool has_twice(const Corners& corners) {
+bool has_twice(std::span<const Index> corners) {
   for (std::size_t i = 1; i < corners.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (corners[i] == corners[j]) return true;
@@ -122,33 +116,13 @@ bool has_twice(const Corners& corners) {
 
 void find_collapsed(AnyShape::State& state) {
   Index number = 0;
-  const auto look = [&](const auto& rows) {
-    for (const auto& row : rows) {
-      if (has_twice(row)) state.collapsed.push_back(number);
-      ++number;
-    }
-  };
-  std::visit(
-      [&](const auto& data) {
-        using Data = std::decay_t<decltype(data)>;
-        if constexpr (std::is_same_v<Data, io::Triangles>) {
-          look(data.triangles);
-        } else if constexpr (std::is_same_v<Data, io::Tets>) {
-          look(data.tets);
-        } else if constexpr (std::is_same_v<Data, SimplexShape>) {
-          const auto corners = static_cast<std::size_t>(data.dimension) + 1;
-          for (std::size_t at = 0; at < data.corners.size(); at += corners, ++number)
-            if (has_twice(std::span(data.corners).subspan(at, corners)))
-              state.collapsed.push_back(number);
-        } else if constexpr (std::is_same_v<Data, MixedShape>) {
-          for (const MixedShape::Part& part : data.parts) {
-            number += static_cast<Index>(part.edges.size());
-            look(part.triangles);
-            look(part.tets);
-          }
-        }
-      },
-      state.data);
+  for (const io::Cells& cells : state.cells) {
+    const bool edges =
+        state.data.index() != static_cast<std::size_t>(DomainKind::simplices) && cells.corners == 2;
+    for (std::size_t c = 0; c < cells.count(); ++c, ++number)
+      if (!edges && has_twice(cells.connectivity.subspan(c * cells.corners, cells.corners)))
+        state.collapsed.push_back(number);
+  }
 }
 
 std::string collapsed_sentence(const AnyShape& shape) {

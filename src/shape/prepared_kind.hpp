@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -14,6 +13,7 @@
 
 #include "complexes/common/kept_parts.hpp"
 #include "shape/prepared.hpp"
+#include "shape/shape_state.hpp"
 #include "shape/with_executor.hpp"
 
 namespace plexway {
@@ -53,12 +53,7 @@ class PathsOf final : public AnyPathField::State {
   Path trace(const PointSource& outside, const TraceOptions& options) const override {
     Path path = paths_.trace(inside(outside), options);
     if (const OpenSimplices* const open = keep_->open()) open->outside(path);
-    if (measured_ && !shape_.positions().empty() && shape_.cloud() == nullptr) {
-      path.positions.clear();
-      for (const PathPoint& at : path.points)
-        path.positions.push_back(
-            shape_.position({.simplex = at.simplex, .barycentric = at.barycentric}));
-    }
+    if (measured_ && !shape_.positions().empty() && shape_.cloud() == nullptr) place(path, shape_);
     return path;
   }
 

@@ -2,8 +2,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -16,6 +14,7 @@
 #include "shape/arguments/arguments.hpp"
 #include "shape/boundary.hpp"
 #include "shape/scene.hpp"
+#include "shape/shape_state.hpp"
 #include "shape/simplex_edges.hpp"
 #include "shape/warnings/survey.hpp"
 
@@ -74,43 +73,29 @@ ShapeScene::ShapeScene(const AnyShape& shape, const SceneContent& content) {
           support(Purpose::pictures, shape));
   part.value = content.distance;
   part.label = content.label;
-  std::visit(
-      [&](const auto& data) {
-        using Kind = std::decay_t<decltype(data)>;
-        if constexpr (std::is_same_v<Kind, io::Triangles>) {
-          part.triangles = data.triangles;
-          if (content.fine != nullptr && content.label.empty()) {
-            part.positions = content.fine->positions;
-            part.triangles = content.fine->faces;
-            part.value = content.fine->distance;
-          }
-        } else if constexpr (std::is_same_v<Kind, io::Tets>) {
-          part.tets = data.tets;
-          part.ghost = content.look_inside;
-        } else if constexpr (std::is_same_v<Kind, io::Edges>) {
-          part.edges = data.edges;
-        } else if constexpr (std::is_same_v<Kind, CloudShape>) {
-          normals_ = data.points.normals.empty()
-                         ? estimate_normals(data.measured(), data.neighbours)
-                         : data.points.normals;
-          part.normals = normals_;
-          if (!content.distance.empty() && content.label.empty()) {
-            slopes_ = cloud_slopes(data.measured(), normals_, data.neighbours, content.distance);
-            part.slope = slopes_;
-          }
-        } else if constexpr (std::is_same_v<Kind, MixedShape>) {
-          for (const MixedShape::Part& of : data.parts) {
-            part.edges = of.edges;
-            part.triangles = of.triangles;
-            part.tets = of.tets;
-            part.ghost = content.look_inside;
-            scene_.parts.push_back(part);
-          }
-        } else {
-          support(Purpose::pictures, shape.kind()).require();
-        }
-      },
-      shape.data());
+  if (const CloudShape* const cloud = shape.cloud()) {
+    normals_ = cloud->points.normals.empty()
+                   ? estimate_normals(cloud->measured(), cloud->neighbours)
+                   : cloud->points.normals;
+    part.normals = normals_;
+    if (!content.distance.empty() && content.label.empty()) {
+      slopes_ = cloud_slopes(cloud->measured(), normals_, cloud->neighbours, content.distance);
+      part.slope = slopes_;
+    }
+  }
+  // A part of a mixed domain has three lists.
+  for (std::size_t i = 0; i < shape.state().cells.size(); ++i) {
+    const io::Cells& cells = shape.state().cells[i];
+    if (cells.corners == 2) part.edges = rows_of<2>(cells);
+    if (cells.corners == 3) part.triangles = rows_of<3>(cells);
+    if (cells.corners == 4) part.tets = rows_of<4>(cells), part.ghost = content.look_inside;
+    if (shape.kind() == DomainKind::mixed && i % 3 == 2) scene_.parts.push_back(part);
+  }
+  if (shape.kind() == DomainKind::surface && content.fine != nullptr && content.label.empty()) {
+    part.positions = content.fine->positions;
+    part.triangles = content.fine->faces;
+    part.value = content.fine->distance;
+  }
   // What has no area shows nothing; its edges do.
   const bool filled = shape.kind() == DomainKind::surface || shape.kind() == DomainKind::solid;
   if (filled && lie_in_line(shape.positions())) {
@@ -137,22 +122,17 @@ void fill_page(io::Page& page, const AnyShape& shape, const SceneContent& conten
           support(Purpose::pictures, shape));
   page.value = content.distance;
   page.label = content.label;
-  if (const auto* surface = std::get_if<io::Triangles>(&shape.data())) {
-    page.triangles = surface->triangles;
-  } else if (const auto* solid = std::get_if<io::Tets>(&shape.data())) {
-    page.triangles = boundary_faces(solid->positions, solid->tets);
-  } else if (const auto* wires = std::get_if<io::Edges>(&shape.data())) {
-    page.edges = wires->edges;
-  } else if (const auto* mixed = std::get_if<MixedShape>(&shape.data())) {
-    for (const MixedShape::Part& part : mixed->parts) {
-      page.edges.insert(page.edges.end(), part.edges.begin(), part.edges.end());
-      page.triangles.insert(page.triangles.end(), part.triangles.begin(), part.triangles.end());
-      const auto skin = boundary_faces(mixed->positions, part.tets);
-      page.triangles.insert(page.triangles.end(), skin.begin(), skin.end());
-    }
+  for (const io::Cells& cells : shape.state().cells) {
+    if (cells.corners == 2)
+      for (const auto& edge : rows_of<2>(cells)) page.edges.push_back(edge);
+    if (cells.corners == 3)
+      for (const auto& triangle : rows_of<3>(cells)) page.triangles.push_back(triangle);
+    if (cells.corners == 4)
+      for (const auto& face : boundary_faces(shape.positions(), rows_of<4>(cells)))
+        page.triangles.push_back(face);
   }
   // Inside a solid there is something to see: of its skin the edges are left.
-  if (content.look_inside && std::holds_alternative<io::Tets>(shape.data())) {
+  if (content.look_inside && shape.kind() == DomainKind::solid) {
     for (const auto& [a, b, c] : page.triangles)
       page.edges.insert(page.edges.end(), {{a, b}, {b, c}, {c, a}});
     page.triangles.clear();

@@ -153,10 +153,8 @@ SearchResult find_paths(const AnyDomain& domain, std::span<const PointSource> so
   });
   for (Path& path : found.paths) {
     if (open != nullptr) open->outside(path);
-    if (!path.positions.empty() || shape.positions().empty()) continue;
-    for (const PathPoint& at : path.points)  // the search knew none
-      path.positions.push_back(
-          shape.position({.simplex = at.simplex, .barycentric = at.barycentric}));
+    // The search may have known none.
+    if (path.positions.empty() && !shape.positions().empty()) place(path, shape);
   }
   return found;
 }

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <utility>
-#include <variant>
 
 #include <plexway/error.hpp>
 

@@ -67,9 +67,6 @@ RaceTimes race(const AnyDomain& domain, AnyField& field, EdgeDijkstra* dijkstra,
 }
 
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
-
-#endif
-#ifdef PLEXWAY_HAS_BOOST_GRAPH
 namespace {
 
 template <class Real>

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -56,10 +54,10 @@ Json to_json(const Bounds& box);
 Json to_json(const Spread& spread);
 std::string to_text(const Bounds& box);
 std::string to_text(const Spread& spread);
-/// Null for none; else at most the 100 largest.
-Json sizes_json(const std::optional<std::vector<std::size_t>>& sizes);
+/// At most the 100 largest.
+Json sizes_json(const std::vector<std::size_t>& sizes);
 /// Adds a line with the sizes of the largest components where there are several.
-void add_sizes(Table& table, const std::optional<std::vector<std::size_t>>& sizes);
+void add_sizes(Table& table, const std::vector<std::size_t>& sizes);
 
 /// What is measured on a solid beside SolidSummary, in the file's unit.
 struct SolidSurvey {
@@ -72,7 +70,7 @@ struct SolidSurvey {
 };
 
 /// Cost: O(n log n).
-SolidSurvey survey_solid(const io::Tets& solid);
+SolidSurvey survey_solid(const AnyShape& solid);
 
 /// What may surprise the user of this solid, a sentence each.
 std::vector<std::string> solid_warnings(const SolidSummary& summary, const SolidSurvey& survey);

@@ -49,10 +49,11 @@ Measure measure(const std::array<Vector, 4>& corners) {
 
 }  // namespace
 
-SolidSurvey survey_solid(const io::Tets& solid) {
+SolidSurvey survey_solid(const AnyShape& domain) {
+  const auto& solid = std::get<io::Tets>(domain.data());
   SolidSurvey survey;
   survey.box = bounding_box(solid.positions);
-  survey.edge = spread_of(lengths_of(edges_of(solid)));
+  survey.edge = spread_of(lengths_of(edges_of(domain)));
   std::size_t slender = 0;
   for (const auto& tet : solid.tets) {
     std::array<Vector, 4> corners;
@@ -63,7 +64,7 @@ SolidSurvey survey_solid(const io::Tets& solid) {
     if (found.slender) ++slender;
   }
   survey.slender_share = static_cast<double>(slender) / static_cast<double>(solid.tets.size());
-  survey.coincident_vertices = count_coincident(solid.positions, solid.tets);
+  survey.coincident_vertices = count_coincident(domain);
   return survey;
 }
 
@@ -94,11 +95,11 @@ std::vector<std::string> solid_warnings(const SolidSummary& summary, const Solid
   return warnings;
 }
 
-InfoReport info_of(const AnyShape& domain, const io::Tets& solid) {
+InfoReport info_of(const AnyShape& domain, const io::Tets&) {
   const AnyDomain built = measured_domain(domain);
   SolidSummary summary = complex_as<TetMesh<double>>(built).summary();
   summary.unreferenced_vertices -= domain.merged_count();
-  const SolidSurvey survey = survey_solid(solid);
+  const SolidSurvey survey = survey_solid(domain);
   const auto sizes = component_sizes(domain);
   const auto warnings = solid_warnings(summary, survey);
 
@@ -139,7 +140,6 @@ InfoReport info_of(const AnyShape& domain, const io::Tets& solid) {
   table.add("edge length", to_text(survey.edge));
   table.add("slender", short_number(100 * survey.slender_share) +
                            " % of the tetrahedra have an aspect ratio above 10");
-  for (const std::string& warning : warnings) table.add("note", warning);
   return report;
 }
 

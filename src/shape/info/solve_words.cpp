@@ -12,6 +12,7 @@
 #include "executors/threads/piece_post.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/info/solve_words.hpp"
+#include "shape/make_complex.hpp"
 
 namespace plexway {
 
@@ -81,12 +82,6 @@ std::string_view name_of(Triangulation done) {
                                            : "refined";
 }
 
-std::string_view name_of(Retriangulation done) {
-  return name_of(done == Retriangulation::keep    ? Triangulation::input
-                 : done == Retriangulation::flips ? Triangulation::delaunay
-                                                  : Triangulation::refined);
-}
-
 }  // namespace
 
 std::string_view name_of(const TriangulationReport& report) { return name_of(report.done); }
@@ -109,12 +104,12 @@ void add_shape(const TriangulationShape& shape, Json& json, Table& table) {
   triangulation["largest_angle"] = shape.largest_angle;
   triangulation["needle_share"] = shape.needle_share;
   triangulation["blunt_share"] = shape.blunt_share;
-  triangulation["auto"] = name_of(what_pays(shape));
+  triangulation["auto"] = name_of(named(what_pays(shape)));
   table.add("triangles", "angles " + short_number(shape.smallest_angle) + " to " +
                              short_number(shape.largest_angle) + " degrees; " +
                              short_number(100 * shape.non_delaunay_share()) +
                              " % of the inner edges are not Delaunay; --triangulation auto takes " +
-                             std::string(name_of(what_pays(shape))));
+                             std::string(name_of(named(what_pays(shape)))));
 }
 
 RankCounts rank_counts(PieceRanks& ranks, std::size_t sent_bytes) {

@@ -1,11 +1,9 @@
 #include "shape/pairs/pair_files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>

@@ -8,7 +8,7 @@
 #include <plexway/shape/shape.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "complexes/common/disjoint_sets.hpp"
+#include "shape/warnings/survey.hpp"
 #include "tool/report/distance_report.hpp"
 
 namespace plexway {
@@ -24,18 +24,10 @@ struct Parts {
 /// Those in which none of the points lies. A vertex in no simplex is no part. Cost: linear, nearly.
 Parts parts_without(const AnyShape& shape, std::span<const PointSource> points) {
   const std::size_t n = shape.vertices();
-  DisjointSets sets(n);
+  DisjointSets sets = joined_vertices(shape);
   std::vector<bool> used(n, shape.cloud() != nullptr);
-  for (std::size_t s = 0; s < shape.simplices(); ++s) {
-    const auto corners = shape.corners(s);
-    for (const Index v : corners) {
-      used[v] = true;
-      sets.unite(v, corners.front());
-    }
-  }
-  if (const CloudShape* cloud = shape.cloud())
-    for (Index v = 0; v < cloud->neighbours.point_count(); ++v)
-      for (const Index w : cloud->neighbours.around(v)) sets.unite(v, w);
+  for (std::size_t s = 0; s < shape.simplices(); ++s)
+    for (const Index v : shape.corners(s)) used[v] = true;
   std::vector<bool> taken(n, false);
   for (const PointSource& point : points)
     taken[sets.find(point.vertex != none ? point.vertex : shape.corners(point.simplex).front())] =

@@ -40,7 +40,7 @@ void run_tetrahedralize(const TetrahedralizeCommand& command) {
   progress.phase("writing " + command.out);
   io::write_tets(command.out, solid);
   progress.clear();
-  const SolidSurvey survey = survey_solid(solid);
+  const SolidSurvey survey = survey_solid(domain);
   Json json;
   json["input"] = command.input;
   json["out"] = command.out;
