@@ -1,8 +1,6 @@
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -97,10 +95,10 @@ void add_pairs_command(CLI::App& tool, Action& action, const Among* among) {
   command->solve.executor.name = "auto";
   CLI::App& app = *tool.add_subcommand(
       "pairs", "Matrices of distances: between chosen points, or of any size, restartable");
+  const OptionGroup add(app);
   add_input(app, *command);
-  app.add_option("--source,-s", command->points,
-                 "a point of a small symmetric matrix: vertex:ID or point:X,Y,Z; repeat it")
-      ->type_name("WHERE")
+  add("--source,-s", command->points, "WHERE",
+      "a point of a small symmetric matrix: vertex:ID or point:X,Y,Z; repeat it")
       ->allow_extra_args(false);
   add_output(
       app, "--out,-o", command->out,

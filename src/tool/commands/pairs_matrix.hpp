@@ -7,10 +7,6 @@
 #include "tool/options/input.hpp"
 #include "tool/options/solve_options.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace plexway::cli {
 
 struct Among;

@@ -1,6 +1,5 @@
 #include "tool/commands/sampling_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -49,11 +48,11 @@ Parts parts_without(const AnyShape& shape, std::span<const PointSource> points) 
 namespace plexway::cli {
 
 void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* out_help) {
+  const OptionGroup add(app);
   add_input(app, command, "a surface, a solid or a cloud, as for 'plexway distance'");
   add_output(app, "--out,-o", command.out, std::string(out_help) + output_help, "csv");
-  app.add_option("--precision", command.precision, "float (default) or double")
-      ->each([&command](const std::string&) { command.precision_given = true; })
-      ->type_name("NAME");
+  add("--precision", command.precision, "NAME", "float (default) or double")
+      ->each([&command](const std::string&) { command.precision_given = true; });
   add_input_options(app, command);
 }
 

@@ -3,7 +3,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 
 #include <plexway/error.hpp>
 #include <plexway/solve/distance_field.hpp>
@@ -14,10 +13,6 @@
 #include "tool/options/picture_options.hpp"
 #include "tool/options/solve_options.hpp"
 #include "tool/report/console.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace plexway::cli {
 

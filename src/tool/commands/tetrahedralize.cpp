@@ -1,8 +1,3 @@
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <limits>
 #include <memory>
 #include <string>
 #include <variant>

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <plexway/shape/read_options.hpp>
@@ -9,14 +11,39 @@
 
 #include "tool/report/console.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace plexway::cli {
 
 /// Adds the options to a command, in a group of their own.
 void add_cloud_options(CLI::App& command, CloudPreparation& options);
+
+/// Adds options to a command, in a group of their own unless it has no name.
+class OptionGroup {
+ public:
+  explicit OptionGroup(CLI::App& command, std::string name = "")
+      : command_(command), name_(std::move(name)) {}
+
+  /// One that takes what `type` stands for.
+  template <class Value>
+  CLI::Option* operator()(const std::string& names, Value& value, const char* type,
+                          const std::string& help) const {
+    return grouped(command_.add_option(names, value, help))->type_name(type);
+  }
+  CLI::Option* flag(const std::string& names, bool& value, const std::string& help) const {
+    return grouped(command_.add_flag(names, value, help));
+  }
+
+ private:
+  CLI::Option* grouped(CLI::Option* option) const {
+    return name_.empty() ? option : option->group(name_);
+  }
+
+  CLI::App& command_;
+  std::string name_;
+};
+
+/// Adds an option that names an output; "-" becomes "USUAL:-", standard output in that format.
+void add_output(CLI::App& command, const std::string& name, std::string& out,
+                const std::string& help, const char* usual);
 
 /// How to fill a surface with tetrahedra, as typed.
 struct FillArguments : FillOptions {

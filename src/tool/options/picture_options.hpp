@@ -12,10 +12,6 @@
 #include "shape/info/report.hpp"
 #include "tool/options/input.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace plexway::cli {
 
 /// --picture and --html, and what goes with them, as typed.

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -64,25 +63,17 @@ bool is_built(const std::string& name) {
 }  // namespace
 
 void add_executor_options(CLI::App& command, ExecutorArgument& argument, const std::string& group) {
-  command
-      .add_option("--executor", argument.name,
-                  "what it runs on: serial (default), openmp, gl or auto (what is fastest\n"
-                  "for so many simplices and sources)")
-      ->type_name("NAME")
-      ->group(group);
-  command
-      .add_option("--threads", argument.threads,
-                  "that build INPUT, and solve by openmp and auto (default: all cores)")
-      ->check(CLI::Range(1, 1024))
-      ->type_name("N")
-      ->group(group);
-  command
-      .add_option("--device", argument.device,
-                  "for gl: its number in 'plexway info --devices' (default: the first\n"
-                  "graphics processor)")
-      ->check(CLI::Range(0, 1024))
-      ->type_name("N")
-      ->group(group);
+  const OptionGroup add(command, group);
+  add("--executor", argument.name, "NAME",
+      "what it runs on: serial (default), openmp, gl or auto (what is fastest\n"
+      "for so many simplices and sources)");
+  add("--threads", argument.threads, "N",
+      "that build INPUT, and solve by openmp and auto (default: all cores)")
+      ->check(CLI::Range(1, 1024));
+  add("--device", argument.device, "N",
+      "for gl: its number in 'plexway info --devices' (default: the first\n"
+      "graphics processor)")
+      ->check(CLI::Range(0, 1024));
 }
 
 ExecutorKind kind_of(const ExecutorArgument& argument) {
@@ -122,15 +113,12 @@ Executor choose_executor(const ExecutorArgument& argument, const PropagateOption
 }
 
 void add_metric_option(CLI::App& command, MetricArgument& argument) {
-  command
-      .add_option(
-          "--metric", argument.text,
-          "what a step costs: speed:FILE (a number a simplex), regions:FILE (a region of a\n"
-          ".msh, .vtu or .vtk and its speed a line), tensor:FILE (xx xy xz yy yz zz a simplex;\n"
-          "xx xy yy in the plane), vertex-tensor:FILE (a vertex) or\n"
-          "lengths:FILE (vertex vertex length an edge); default: lengths in space")
-      ->type_name("KIND:FILE")
-      ->group("How to solve");
+  const OptionGroup add(command, "How to solve");
+  add("--metric", argument.text, "KIND:FILE",
+      "what a step costs: speed:FILE (a number a simplex), regions:FILE (a region of a\n"
+      ".msh, .vtu or .vtk and its speed a line), tensor:FILE (xx xy xz yy yz zz a simplex;\n"
+      "xx xy yy in the plane), vertex-tensor:FILE (a vertex) or\n"
+      "lengths:FILE (vertex vertex length an edge); default: lengths in space");
 }
 
 static std::string name_of_metric(const MetricArgument& argument, const MeasuredLengths& lengths,
@@ -154,14 +142,12 @@ void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
 }
 
 void add_mask_option(CLI::App& command, MaskArgument& argument) {
-  command
-      .add_option(
-          "--mask", argument.text,
-          "where no path may go: vertices:FILE or simplices:FILE, a number (0-based) a\n"
-          "line; a vertex closes the simplices about it; FILE:3,7 closes the vertices with\n"
-          "these labels (.label.gii, .annot, .label, or one a line); regions:3,7 closes\n"
-          "these regions of a .msh, .vtu or .vtk")
-      ->type_name("WHAT");
+  const OptionGroup add(command);
+  add("--mask", argument.text, "WHAT",
+      "where no path may go: vertices:FILE or simplices:FILE, a number (0-based) a\n"
+      "line; a vertex closes the simplices about it; FILE:3,7 closes the vertices with\n"
+      "these labels (.label.gii, .annot, .label, or one a line); regions:3,7 closes\n"
+      "these regions of a .msh, .vtu or .vtk");
 }
 
 namespace {
@@ -179,18 +165,6 @@ Value choose(std::string_view option, const std::string& typed,
 
 }  // namespace
 
-void add_accuracy_option(CLI::App& command, std::string& accuracy, const std::string& group) {
-  CLI::Option* const option =
-      command
-          .add_option(
-              "--accuracy", accuracy,
-              "of surfaces, clouds and solids: accurate (default; mean errors below 1e-4 on\n"
-              "surfaces), fast (a third of the time; 1e-3, single vertices far off), exact (in\n"
-              "double; not of solids), or a mean error, as 1e-3")
-          ->type_name("NAME|X");
-  if (!group.empty()) option->group(group);
-}
-
 Accuracy accuracy_of(const std::string& typed) {
   if (typed.empty()) return Accuracy::usual();
   if (typed == "fast") return Accuracy::fast();
@@ -207,32 +181,23 @@ Accuracy accuracy_of(const std::string& typed) {
 
 void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded) {
   const std::string group = "How to solve";
-  add_accuracy_option(command, options.accuracy, group);
-  command
-      .add_option("--visibility", options.visibility,
-                  "when a line of sight counts: saddles (default), tuned, centroid, or\n"
-                  "upper_bound (never below exact, up to a third above)")
-      ->type_name("NAME")
-      ->group(group);
-  command
-      .add_option("--table", options.table,
-                  "the table of --visibility tuned, as 'plexway tune --out' writes it")
-      ->type_name("FILE")
-      ->group(group);
-  command
-      .add_option("--schedule", options.schedule,
-                  "what propagates next: dual_queue (default), fifo or priority")
-      ->each([&options](const std::string&) { options.schedule_given = true; })
-      ->type_name("NAME")
-      ->group(group);
-  command.add_option("--step", options.step, "width of the dual queue in mean edges (default 1)")
-      ->each([&options](const std::string&) { options.step_given = true; })
-      ->type_name("X")
-      ->group(group);
+  const OptionGroup add(command, group);
+  add("--accuracy", options.accuracy, "NAME|X",
+      "of surfaces, clouds and solids: accurate (default; mean errors below 1e-4 on\n"
+      "surfaces), fast (a third of the time; 1e-3, single vertices far off), exact (in\n"
+      "double; not of solids), or a mean error, as 1e-3");
+  add("--visibility", options.visibility, "NAME",
+      "when a line of sight counts: saddles (default), tuned, centroid, or\n"
+      "upper_bound (never below exact, up to a third above)");
+  add("--table", options.table, "FILE",
+      "the table of --visibility tuned, as 'plexway tune --out' writes it");
+  add("--schedule", options.schedule, "NAME",
+      "what propagates next: dual_queue (default), fifo or priority")
+      ->each([&options](const std::string&) { options.schedule_given = true; });
+  add("--step", options.step, "X", "width of the dual queue in mean edges (default 1)")
+      ->each([&options](const std::string&) { options.step_given = true; });
   if (bounded) {
-    command.add_option("--radius", options.radius, "go no farther than this; beyond it is inf")
-        ->type_name("R")
-        ->group(group);
+    add("--radius", options.radius, "R", "go no farther than this; beyond it is inf");
     command
         .add_option("--max-expansions", options.max_expansions,
                     "stop after N expansions; distances are then not final")
@@ -240,10 +205,8 @@ void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded) {
         ->type_name("N")
         ->group(group);
   }
-  command.add_option("--precision", options.precision, "float (default) or double")
-      ->each([&options](const std::string&) { options.precision_given = true; })
-      ->type_name("NAME")
-      ->group(group);
+  add("--precision", options.precision, "NAME", "float (default) or double")
+      ->each([&options](const std::string&) { options.precision_given = true; });
   add_executor_options(command, options.executor, group);
 }
 
@@ -293,23 +256,20 @@ Precision precision_of(const SolveOptions& options) {
 }
 
 void add_triangulation_option(CLI::App& command, TriangulationArgument& argument) {
-  command
-      .add_option("--triangulation", argument.name,
-                  "surfaces: which triangles to solve on: input, delaunay (the intrinsic\n"
-                  "Delaunay triangulation of the vertices), refined (that, with a quarter more\n"
-                  "vertices inside), or auto (default: what the shape of the input's triangles\n"
-                  "calls for; 'plexway info' tells). Results are for the input's vertices")
-      ->type_name("NAME")
-      ->group("How to solve");
+  const OptionGroup add(command, "How to solve");
+  add("--triangulation", argument.name, "NAME",
+      "surfaces: which triangles to solve on: input, delaunay (the intrinsic\n"
+      "Delaunay triangulation of the vertices), refined (that, with a quarter more\n"
+      "vertices inside), or auto (default: what the shape of the input's triangles\n"
+      "calls for; 'plexway info' tells). Results are for the input's vertices");
 }
 
 Triangulation triangulation_of(const TriangulationArgument& argument) {
-  if (argument.name == "input") return Triangulation::input;
-  if (argument.name == "delaunay") return Triangulation::delaunay;
-  if (argument.name == "refined") return Triangulation::refined;
-  if (argument.name == "auto") return Triangulation::automatic;
-  throw UsageError("--triangulation '" + argument.name +
-                   "': choose one of input, delaunay, refined, auto");
+  return choose<Triangulation>("--triangulation", argument.name,
+                               {{"input", Triangulation::input},
+                                {"delaunay", Triangulation::delaunay},
+                                {"refined", Triangulation::refined},
+                                {"auto", Triangulation::automatic}});
 }
 
 void check_triangulation(Triangulation wanted, const Domain& domain) {

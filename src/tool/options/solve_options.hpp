@@ -3,9 +3,6 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <variant>
-#include <vector>
 
 #include <plexway/any_domain.hpp>
 #include <plexway/executors.hpp>
@@ -16,10 +13,6 @@
 #include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"
 #include "tool/options/input.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace plexway::cli {
 
@@ -80,8 +73,6 @@ struct SolveOptions {
 /// Adds the options to a command; `bounded` adds those that end a propagation early.
 void add_solve_options(CLI::App& command, SolveOptions& options, bool bounded);
 
-/// Adds --accuracy alone.
-void add_accuracy_option(CLI::App& command, std::string& accuracy, const std::string& group);
 /// As typed; the usual one where nothing was. Throws UsageError.
 Accuracy accuracy_of(const std::string& typed);
 

@@ -14,10 +14,6 @@
 #include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"
 
-namespace CLI {
-class App;
-}
-
 namespace plexway::cli {
 
 /// What came of a solve, as 'plexway distance' tells it, whoever had the domain.
@@ -37,10 +33,6 @@ struct DistanceReport {
 void add_report(const DistanceReport& report, Json& json);
 void add_report(const DistanceReport& report, Table& table, bool verbose);
 ///@}
-
-/// Adds an option that names an output; "-" becomes "USUAL:-", standard output in that format.
-void add_output(CLI::App& command, const std::string& name, std::string& out,
-                const std::string& help, const char* usual);
 
 using io::check_output_name;
 using io::check_output_place;
