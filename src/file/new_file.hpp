@@ -39,7 +39,7 @@ class SignalsHeld {
 ///
 /// Where the system has files without a name it is one until `commit`, so nothing stays behind
 /// whatever ends the process; elsewhere it is NAME.plexway-partN, which whoever writes NAME next
-/// removes after a kill, and on the list of `unfinished.hpp`. Links stay links, their ends there or
+/// removes after a kill, and on the list of unfinished files. Links stay links, their ends there or
 /// not. A file that is replaced gives mode and owner to the new one; one that may not be written
 /// is not. A target that exists and is no regular file (a pipe, a device) is written directly,
 /// and so is standard output, by the name that `standard_output.hpp` gives it. All but `write`

@@ -8,7 +8,7 @@
 #include <plexway/shape/pairs.hpp>
 #include <plexway/version.hpp>
 
-#include "shape/exact_number.hpp"
+#include "shape/words.hpp"
 
 namespace plexway {
 namespace {

@@ -6,9 +6,6 @@
 #include <plexway/error.hpp>
 
 #include "file/new_file.hpp"
-#include "shape/modules/hdf5_functions.hpp"
-#include "shape/modules/openvdb_functions.hpp"
-#include "shape/modules/pcl_functions.hpp"
 
 namespace plexway {
 namespace {

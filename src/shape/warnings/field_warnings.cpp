@@ -9,15 +9,13 @@
 #include <plexway/cloud/point_cloud.hpp>
 #include <plexway/shape/complex.hpp>
 
-#include "shape/cloud_words.hpp"
-#include "shape/collapsed.hpp"
+#include "complexes/simplicial/simplex_notches.hpp"
+#include "shape/merge.hpp"
 #include "shape/spelling.hpp"
 #include "shape/warnings/bent_crossings.hpp"
-#include "shape/warnings/complex_warnings.hpp"
-#include "shape/warnings/rim_detours.hpp"
-#include "shape/warnings/scattered_rims.hpp"
+#include "shape/warnings/cloud_rims.hpp"
+#include "shape/warnings/sentences.hpp"
 #include "shape/warnings/survey.hpp"
-#include "shape/warnings/violations.hpp"
 #include "shape/words.hpp"
 
 namespace plexway {

@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -21,10 +20,7 @@
 #include "executors/parts/same_rows.hpp"
 #include "executors/same_work.hpp"
 #include "executors/threads/piece_post.hpp"
-#include "shape/arguments/point_argument.hpp"
-#include "shape/arguments/require.hpp"
-#include "shape/arguments/source_argument.hpp"
-#include "shape/info/rank_counts.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/partitioned_field.hpp"
@@ -34,7 +30,6 @@
 #include "tool/exit_codes.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <io/hdf5/include/plexway/hdf5/matrix.hpp>
 
 #include "file/new_file.hpp"
-#include "shape/modules/hdf5_functions.hpp"
+#include "shape/modules/module.hpp"
 
 namespace {
 

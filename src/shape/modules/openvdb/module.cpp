@@ -9,7 +9,7 @@
 #include <plexway/openvdb/surface.hpp>
 
 #include "file/new_file.hpp"
-#include "shape/modules/openvdb_functions.hpp"
+#include "shape/modules/module.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <plexway/pcl/filters.hpp>
 
 #include "file/new_file.hpp"
-#include "shape/modules/pcl_functions.hpp"
+#include "shape/modules/module.hpp"
 
 namespace {
 

@@ -1,20 +1,59 @@
-#include "shape/warnings/walls.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <iterator>
 #include <vector>
 
 #include "complexes/common/box_tree.hpp"
 #include "complexes/common/closest_point.hpp"
-#include "shape/solid_boundary.hpp"
+#include "complexes/solid/shared_faces.hpp"
+#include "shape/boundary.hpp"
+#include "shape/shape_state.hpp"
 
 namespace plexway {
 namespace {
 
 using Point = std::array<double, 3>;
+using Row = std::array<std::uint32_t, 3>;
+
+bool inside_out(std::span<const Point> positions, const std::array<std::uint32_t, 4>& tet) {
+  std::array<Point, 3> e;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) e[i][k] = positions[tet[i + 1]][k] - positions[tet[0]][k];
+  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+             e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+             e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]) <
+         0;
+}
+
+}  // namespace
+
+std::vector<Row> boundary_faces(std::span<const Point> positions,
+                                std::span<const std::array<std::uint32_t, 4>> tets) {
+  return outer_faces(
+      tets.size(), [&](std::size_t t, std::size_t i) { return tets[t][i]; },
+      [&](std::size_t t) { return inside_out(positions, tets[t]); });
+}
+
+io::Triangles boundary_of(const io::Tets& solid) {
+  io::Triangles surface;
+  surface.triangles = boundary_faces(solid.positions, solid.tets);
+  std::vector<char> used(solid.positions.size(), 0);
+  for (const Row& face : surface.triangles)
+    for (const std::uint32_t v : face) used[v] = 1;
+  std::vector<std::uint32_t> number(solid.positions.size());
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (used[v] == 0) continue;
+    number[v] = static_cast<std::uint32_t>(surface.positions.size());
+    surface.positions.push_back(solid.positions[v]);
+  }
+  for (Row& t : surface.triangles)
+    for (std::uint32_t& v : t) v = number[v];
+  return surface;
+}
+
+namespace {
 
 // Squared, 0 inside.
 double squared_distance(const Box<3>& box, const Point& point) {
@@ -89,26 +128,37 @@ std::vector<char> kinds_of(const io::Tets& solid) {
   std::vector<char> used(solid.positions.size(), 0);
   for (const auto& tet : solid.tets)
     for (const Index v : tet) used[v] = 1;
-  std::vector<std::array<Index, 3>> faces;
-  faces.reserve(4 * solid.tets.size());
-  for (const auto& tet : solid.tets)
-    for (std::size_t skip = 0; skip < 4; ++skip) {
-      std::array<Index, 3> face = {tet[(skip + 1) % 4], tet[(skip + 2) % 4], tet[(skip + 3) % 4]};
-      std::sort(face.begin(), face.end());
-      faces.push_back(face);
-    }
-  std::sort(faces.begin(), faces.end());
-  for (std::size_t f = 0; f < faces.size();) {
-    std::size_t end = f + 1;
-    while (end < faces.size() && faces[end] == faces[f]) ++end;
-    if (end == f + 1)
-      for (const Index v : faces[f]) used[v] = 2;
-    f = end;
-  }
+  for (const Index v : rim_vertices(cells_of(solid.tets))) used[v] = 2;
   return used;
 }
 
 }  // namespace
+
+std::vector<Index> rim_vertices(const io::Cells& cells) {
+  std::vector<std::array<Index, 3>> faces;  // of fewer corners: filled up
+  faces.reserve(cells.connectivity.size());
+  for (std::size_t first = 0; first < cells.connectivity.size(); first += cells.corners)
+    for (std::size_t skip = 0; skip < cells.corners; ++skip) {
+      std::array<Index, 3> face = {none, none, none};
+      for (std::size_t i = 0, k = 0; i < cells.corners; ++i)
+        if (i != skip) face[k++] = cells.connectivity[first + i];
+      std::sort(face.begin(), face.end());
+      faces.push_back(face);
+    }
+  std::sort(faces.begin(), faces.end());
+  std::vector<Index> rim;
+  for (std::size_t f = 0; f < faces.size();) {
+    std::size_t end = f + 1;
+    while (end < faces.size() && faces[end] == faces[f]) ++end;
+    if (end == f + 1)
+      std::copy_if(faces[f].begin(), faces[f].end(), std::back_inserter(rim),
+                   [](Index v) { return v != none; });
+    f = end;
+  }
+  std::sort(rim.begin(), rim.end());
+  rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
+  return rim;
+}
 
 VertexSource walls_of(const io::Tets& solid) {
   VertexSource source;

@@ -1,4 +1,4 @@
-#include "shape/warnings/linear_field.hpp"
+#include "shape/prepared.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,13 +1,22 @@
-#include <plexway/shape/isolines.hpp>
-
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#include <plexway/error.hpp>
 #include <plexway/fields/isolines.hpp>
+#include <plexway/io/field.hpp>
+#include <plexway/io/paths.hpp>
 #include <plexway/shape/complex.hpp>
+#include <plexway/shape/isolines.hpp>
 #include <plexway/shape/support.hpp>
+
+#include "io/extension.hpp"
+#include "shape/level_sets.hpp"
+#include "shape/warnings/survey.hpp"
 
 namespace plexway {
 namespace {
@@ -105,6 +114,97 @@ std::vector<Path> isolines(const AnyDomain& domain, std::span<const double> dist
 std::vector<Path> isolines(const AnyDomain& domain, const AnyField& field,
                            std::span<const double> values) {
   return isolines(domain, field.doubles(), values);
+}
+
+namespace {
+
+struct Extent {
+  double diagonal = 0;  ///< of the box around the shape
+  bool flat = false;
+};
+
+Extent extent_of(const AnyShape& shape) {
+  const auto [low, high] = bounding_box(shape.positions());
+  const std::array<double, 3> size = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+  const double diagonal = std::hypot(size[0], size[1], size[2]);
+  return {diagonal, *std::min_element(size.begin(), size.end()) < 1e-3 * diagonal};
+}
+
+constexpr double pixels = 600;  // of a picture, about: the diagonal
+
+}  // namespace
+
+bool is_known_inside(const AnyDomain& domain, const AnyExecutor& executor,
+                     const SourceList& sources, const PropagateOptions& options) {
+  const PropagateOptions unbounded;
+  return support(Purpose::arcs, domain.shape()) && sources.only_points() &&
+         !std::holds_alternative<GL>(executor) && domain.lengths() == nullptr &&
+         domain.open_simplices() == nullptr && options.radius == unbounded.radius &&
+         options.max_expansions == unbounded.max_expansions;
+}
+
+bool shows_inside(const AnyDomain& domain) {
+  const Extent extent = extent_of(domain.shape());
+  return domain.mean_edge() > 4 * extent.diagonal / pixels && extent.flat;
+}
+
+FineField field_for_picture(const AnyShape& shape, const AnyPathField& field) {
+  return fine_field(shape, field, extent_of(shape).diagonal / pixels / 4);
+}
+
+namespace {
+
+void write_isosurfaces(const std::filesystem::path& out, const AnyShape& solid,
+                       std::span<const double> distance, std::span<const double> values) {
+  Isosurfaces found = isosurfaces(solid, distance, values);
+  std::vector<double> value;
+  for (const Index n : found.value) value.push_back(values[n]);
+  io::Triangles surface;
+  surface.positions = std::move(found.positions);
+  surface.triangles = std::move(found.triangles);
+  const auto fields = io::field_extensions();
+  if (std::find(fields.begin(), fields.end(), io::lower_extension(out)) != fields.end())
+    io::write_field(out, surface, value);
+  else
+    io::write_triangles(out, surface);
+}
+
+}  // namespace
+
+std::vector<std::string_view> level_set_extensions() {
+  std::vector<std::string_view> all;
+  for (const auto known : {io::path_extensions(), io::triangle_output_extensions()})
+    for (const std::string_view name : known)
+      if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
+  return all;
+}
+
+std::span<const std::string_view> level_set_extensions(DomainKind kind) {
+  if (support(Purpose::isosurfaces, kind)) return io::triangle_output_extensions();
+  support(Purpose::isolines, kind).require();
+  return io::path_extensions();
+}
+
+std::vector<double> level_set_values(std::span<const double> distance, double step) {
+  double most = 0;
+  for (const double d : distance)
+    if (std::isfinite(d)) most = std::max(most, d);
+  if (most / step > 10000)
+    throw UsageError(
+        "the step of level sets: that would be more than 10000 values; take a larger step");
+  std::vector<double> values;
+  for (int n = 1; n * step < most; ++n) values.push_back(n * step);
+  return values;
+}
+
+void write_level_sets(const std::filesystem::path& out, const AnyShape& shown,
+                      const AnyDomain& domain, const AnyField& field, const AnyPathField* paths,
+                      std::span<const double> values, double tolerance) {
+  if (support(Purpose::isosurfaces, shown.kind()))
+    return write_isosurfaces(out, shown, field.doubles(), values);
+  const std::vector<Path> lines = paths != nullptr ? isolines(shown, *paths, values, tolerance)
+                                                   : isolines(domain, field, values);
+  io::write_isolines(out, lines, values);
 }
 
 }  // namespace plexway

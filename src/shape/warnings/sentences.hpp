@@ -16,4 +16,9 @@ std::string kept_points(const CloudShape& cloud);
 /// complex. Cost: several times that of finding the neighbours.
 std::string why_disconnected(const CloudShape& cloud, std::size_t components, Reader reader);
 
+/// For people: paths were to be refracted in a solid, and are not.
+[[nodiscard]] std::string smoothed_sentence();
+/// For people, where lengths break the triangle inequality; else empty.
+[[nodiscard]] std::string violations_sentence(const AnyDomain& domain);
+
 }  // namespace plexway
