@@ -43,19 +43,32 @@ std::string meant_place(std::string_view text) {
          std::string(text) + "'? ";
 }
 
-std::optional<std::array<double, 3>> parse_point(std::string_view text) {
-  std::array<double, 3> point;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, point[i]);
-    if (error != std::errc{} || !std::isfinite(point[i])) return std::nullopt;
-    text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
-    if (i == 2) break;
-    if (text.substr(0, 1) != ",") return std::nullopt;
-    text.remove_prefix(1);
+std::optional<double> number_of(std::string_view text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || rest != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<std::vector<double>> numbers_of(std::string_view text, std::size_t count) {
+  std::vector<double> numbers;
+  for (;;) {
+    const std::size_t comma = text.find(',');
+    const auto value = number_of(text.substr(0, comma));
+    if (!value) return std::nullopt;
+    numbers.push_back(*value);
+    if (comma == text.npos) break;
+    text.remove_prefix(comma + 1);
   }
-  if (!text.empty()) return std::nullopt;
-  return point;
+  if (numbers.size() != count) return std::nullopt;
+  return numbers;
+}
+
+std::optional<std::array<double, 3>> parse_point(std::string_view text) {
+  const auto numbers = numbers_of(text, 3);
+  if (!numbers) return std::nullopt;
+  return std::array{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
 SourceArgument parse_source(const std::string& text, const std::string& role) {

@@ -32,28 +32,6 @@ namespace {
                    "+OFFSET behind it if wanted");
 }
 
-std::optional<double> number_of(std::string_view text) {
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || rest != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-std::optional<std::vector<double>> numbers_of(std::string_view text, std::size_t count) {
-  std::vector<double> numbers;
-  for (;;) {
-    const std::size_t comma = text.find(',');
-    const auto value = number_of(text.substr(0, comma));
-    if (!value) return std::nullopt;
-    numbers.push_back(*value);
-    if (comma == text.npos) break;
-    text.remove_prefix(comma + 1);
-  }
-  if (numbers.size() != count) return std::nullopt;
-  return numbers;
-}
-
 // Takes +OFFSET off the end. The + of an exponent, as in 1e+5, is none.
 double take_offset(std::string& place) {
   const std::size_t plus = place.rfind('+');

@@ -32,6 +32,12 @@ struct CvtResult {
   std::vector<Index> label;
 };
 
+CellCentre centre_of(const CvtCommand& command) {
+  return choose<CellCentre>(
+      "--centre", command.centre,
+      {{"centroid", CellCentre::centroid}, {"border", CellCentre::farthest_from_border}});
+}
+
 template <class Complex>
 CvtResult compute(const Complex& complex, const SampledNumbers& numbers, const CvtCommand& command,
                   ProgressLine& progress, Phases& phases) {
@@ -44,8 +50,7 @@ CvtResult compute(const Complex& complex, const SampledNumbers& numbers, const C
   const PoissonDisks start = poisson_disks(Serial{}, complex, throwing);
   phases.end("start");
   VoronoiOptions options;
-  options.centre =
-      command.centre == "centroid" ? CellCentre::centroid : CellCentre::farthest_from_border;
+  options.centre = centre_of(command);
   options.max_iterations = command.iterations;
   options.tolerance = command.tolerance;
   progress.phase("moving seeds");
@@ -78,8 +83,7 @@ void run_cvt(const CvtCommand& command) {
   const Precision precision = precision_of(command);
   if (command.count == 0) throw UsageError("--count must be > 0");
   if (!(command.tolerance >= 0)) throw UsageError("--tolerance must be >= 0");
-  if (command.centre != "centroid" && command.centre != "border")
-    throw UsageError("--centre '" + command.centre + "': choose one of centroid, border");
+  static_cast<void>(centre_of(command));
   check_output_name(command.out, command.input, point_file_extensions());
   check_output_name(command.cells, command.input, io::field_extensions(), "--cells");
   check_output_name(command.dual, command.input, surface_file_extensions(), "--dual");

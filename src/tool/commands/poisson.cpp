@@ -44,8 +44,9 @@ void run_poisson(const PoissonCommand& command) {
   if (command.radius && (!(*command.radius > 0) || std::isinf(*command.radius)))
     throw UsageError("--radius must be a number > 0");
   if (command.count && *command.count == 0) throw UsageError("--count must be > 0");
-  if (command.order != "uniform" && command.order != "simplices")
-    throw UsageError("--order '" + command.order + "': choose one of uniform, simplices");
+  const auto order =
+      choose<DartOrder>("--order", command.order,
+                        {{"uniform", DartOrder::uniform}, {"simplices", DartOrder::simplices}});
   check_output_name(command.out, command.input, point_file_extensions());
   check_picture(command.picture, command.input);
   check_output_place(command.out, {&command.spacing, 1}, "--out");
@@ -64,7 +65,7 @@ void run_poisson(const PoissonCommand& command) {
   options.radius = command.radius.value_or(0);
   options.count = command.count.value_or(0);
   options.seed = command.seed;
-  options.order = command.order == "uniform" ? DartOrder::uniform : DartOrder::simplices;
+  options.order = order;
   options.at_vertices = command.vertices;
   options.spacing = spacing;
   options.progress = [&](double share) {

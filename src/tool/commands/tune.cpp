@@ -23,28 +23,18 @@ struct TuneCommand : TuningRequest {
   bool quiet = false;
 };
 
-void check(const TuneCommand& command) {
-  const auto choose = [](const char* option, const std::string& typed, const std::string& a,
-                         const std::string& b) {
-    if (typed != a && typed != b)
-      throw UsageError(std::string(option) + " '" + typed + "': choose one of " + a + ", " + b);
-  };
-  choose("--what", command.what, "table", "saddles");
-  choose("--fitness", command.fitness, "mean", "relative");
-  choose("--step-rule", command.step_rule, "fifth", "constant");
-  choose("--triangulation", command.triangulation, "input", "auto");
+void run_tune(const TuneCommand& command) {
+  TuningRequest request = command;
+  request.table = choose<bool>("--what", command.what, {{"table", true}, {"saddles", false}});
+  request.relative =
+      choose<bool>("--fitness", command.fitness, {{"mean", false}, {"relative", true}});
+  request.evolution.adapt =
+      choose<bool>("--step-rule", command.step_rule, {{"fifth", true}, {"constant", false}});
+  request.automatic =
+      choose<bool>("--triangulation", command.triangulation, {{"input", false}, {"auto", true}});
   if (command.resume && command.checkpoint.empty())
     throw UsageError("--resume goes with --checkpoint FILE");
   check_outputs_differ({command.out, command.cpp, command.checkpoint});
-}
-
-void run_tune(const TuneCommand& command) {
-  check(command);
-  TuningRequest request = command;
-  request.table = command.what == "table";
-  request.relative = command.fitness == "relative";
-  request.automatic = command.triangulation == "auto";
-  request.evolution.adapt = command.step_rule == "fifth";
   ProgressLine progress(command.quiet);
   const TuningOutcome outcome = run_tuning(request, read_progress(progress));
   progress.clear();

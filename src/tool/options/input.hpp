@@ -1,11 +1,14 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include <plexway/error.hpp>
 #include <plexway/shape/read_options.hpp>
 #include <plexway/shape/shape.hpp>
 
@@ -44,6 +47,18 @@ class OptionGroup {
 /// Adds an option that names an output; "-" becomes "USUAL:-", standard output in that format.
 void add_output(CLI::App& command, const std::string& name, std::string& out,
                 const std::string& help, const char* usual);
+
+/// What a name stands for that was typed. Throws UsageError for one that is none of them.
+template <class Value>
+Value choose(std::string_view option, const std::string& typed,
+             std::initializer_list<std::pair<std::string_view, Value>> choices) {
+  std::string names;
+  for (const auto& [name, value] : choices) {
+    if (typed == name) return value;
+    names.append(names.empty() ? "" : ", ").append(name);
+  }
+  throw UsageError(std::string(option) + " '" + typed + "': choose one of " + names);
+}
 
 /// How to fill a surface with tetrahedra, as typed.
 struct FillArguments : FillOptions {

@@ -63,9 +63,7 @@ std::array<double, 2> range_of(const std::string& text) {
 }
 
 void check_up(const std::string& text) {
-  if (text.empty()) return;
-  if (text != "x" && text != "y" && text != "z")
-    throw UsageError("--up '" + text + "': choose one of x, y, z");
+  if (!text.empty()) choose<char>("--up", text, {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}});
 }
 
 io::Page page_of(const PictureArguments& arguments) {
@@ -226,8 +224,8 @@ void check_picture(const PictureArguments& arguments, const std::string& input) 
   }
 #ifdef PLEXWAY_HAS_RENDER
   static_cast<void>(options_of(arguments));
-  if (!arguments.colour.empty() && arguments.colour != "distance" && arguments.colour != "cells")
-    throw UsageError("--colour '" + arguments.colour + "': choose one of distance, cells");
+  if (!arguments.colour.empty())
+    choose<bool>("--colour", arguments.colour, {{"distance", false}, {"cells", true}});
   check_output_name(arguments.file, input, picture_extensions, "--picture");
 #else
   static_cast<void>(input);

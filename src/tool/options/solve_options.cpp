@@ -53,8 +53,6 @@ AnyExecutor fastest_executor(const AnyDomain& domain, std::size_t sources,
 namespace plexway::cli {
 namespace {
 
-constexpr std::array<std::string_view, 4> names = {"serial", "openmp", "gl", "auto"};
-
 bool is_built(const std::string& name) {
   const auto built = built_executors();
   return name == "auto" || std::find(built.begin(), built.end(), name) != built.end();
@@ -85,11 +83,11 @@ ExecutorKind kind_of(const ExecutorArgument& argument) {
 void check_executor(const ExecutorArgument& argument, const PropagateOptions& options,
                     bool single_precision) {
   const std::string& name = argument.name;
-  if (std::find(names.begin(), names.end(), name) == names.end())
-    throw UsageError("--executor '" + name + "': choose one of serial, openmp, gl, auto");
+  const bool device = choose<bool>(
+      "--executor", name, {{"serial", false}, {"openmp", false}, {"gl", true}, {"auto", false}});
   if (!is_built(name))
     throw NotBuiltError("--executor " + name + ": not built in; see 'plexway info --devices'");
-  if (argument.device && name != "gl") throw UsageError("--device needs --executor gl");
+  if (argument.device && !device) throw UsageError("--device needs --executor gl");
   if (name != "openmp" && name != "gl") return;
   // What any domain would refuse: no need to read one.
   const Support found = support({.executor = kind_of(argument),
@@ -149,21 +147,6 @@ void add_mask_option(CLI::App& command, MaskArgument& argument) {
       "these labels (.label.gii, .annot, .label, or one a line); regions:3,7 closes\n"
       "these regions of a .msh, .vtu or .vtk");
 }
-
-namespace {
-
-template <class Value>
-Value choose(std::string_view option, const std::string& typed,
-             std::initializer_list<std::pair<std::string_view, Value>> choices) {
-  std::string names;
-  for (const auto& [name, value] : choices) {
-    if (typed == name) return value;
-    names.append(names.empty() ? "" : ", ").append(name);
-  }
-  throw UsageError(std::string(option) + " '" + typed + "': choose one of " + names);
-}
-
-}  // namespace
 
 Accuracy accuracy_of(const std::string& typed) {
   if (typed.empty()) return Accuracy::usual();

@@ -1,4 +1,4 @@
-// The tool's module for HDF5: see shape/modules/hdf5_functions.hpp.
+// The tool's module for HDF5: see shape/modules/module.hpp.
 
 #include <io/hdf5/include/plexway/hdf5/matrix.hpp>
 

@@ -1,4 +1,4 @@
-// The tool's module for OpenVDB: see shape/modules/openvdb_functions.hpp.
+// The tool's module for OpenVDB: see shape/modules/module.hpp.
 
 #include <cstdio>
 #include <utility>

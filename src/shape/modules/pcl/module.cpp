@@ -1,4 +1,4 @@
-// The tool's module for PCL: see shape/modules/pcl_functions.hpp.
+// The tool's module for PCL: see shape/modules/module.hpp.
 
 #include <utility>
 
