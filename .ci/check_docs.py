@@ -74,6 +74,13 @@ def options_of(tool):
     return {m[1]: set(m[2].split()) for m in re.finditer(r"^ +(\S+)\) words=\"(.*)\" ;;", script, re.M)}
 
 
+def check_files(page, text):
+    """Files of the sources that are named in text, as `src/...`: they move, and pages stay behind."""
+    for name in re.findall(r"`((?:src|include|complexes|tests|bench|cmake|shaders)/[\w./-]*)`", text):
+        if not (root / name).exists():
+            faults.append(f"{page.relative_to(root)}: there is no {name}")
+
+
 def check_commands(page, text, options):
     code = "\n".join(re.findall(r"```sh\n(.*?)```", text, re.S)) + "\n"
     code += "\n".join(line[4:] for line in text.splitlines() if line.startswith("    "))
@@ -163,8 +170,10 @@ def main():
         led |= check_links(page, text)
         if page.name != "support.md":  # made by a program
             check_width(page, text)
-        if options and "docs/log" not in str(page):
-            check_commands(page, text, options)
+        if "docs/log" not in str(page):
+            check_files(page, text)
+            if options:
+                check_commands(page, text, options)
     check_figures()
     nav = (root / ".ci" / "mkdocs.yml").read_text()
     for page in (root / "docs").rglob("*.md"):

@@ -42,8 +42,8 @@ inline constexpr bool works_in_place<MergedWindows<Real>> = true;
 template <class Real>
 template <bool kLabels, class Windows, class Scheduler>
 void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& sources,
-                                  const PropagateOptions& options, bool mends, const Scheduler& scheduler,
-                                  WorkspaceState<Real>& workspace,
+                                  const PropagateOptions& options, bool mends,
+                                  const Scheduler& scheduler, WorkspaceState<Real>& workspace,
                                   DistanceField<Real>& field) const {
   NumberRange<Real>::check_unit(mesh_.unit());
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
@@ -114,9 +114,9 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
 
 template <class Real>
 template <class Scheduler>
-bool WindowSolver<Real>::solve_by(const Scheduler& scheduler, const WindowSources& sources, Accuracy accuracy,
-                                  const PropagateOptions& options, WorkspaceState<Real>& workspace,
-                                  DistanceField<Real>& field) {
+bool WindowSolver<Real>::solve_by(const Scheduler& scheduler, const WindowSources& sources,
+                                  Accuracy accuracy, const PropagateOptions& options,
+                                  WorkspaceState<Real>& workspace, DistanceField<Real>& field) {
   constexpr bool alone = std::is_same_v<Scheduler, Alone>;
   if constexpr (!alone)
     if (!sources.only_points())

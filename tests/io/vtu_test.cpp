@@ -170,6 +170,42 @@ TEST_CASE("vtu: files that VTK 9.1 wrote, compressed ones among them") {
   }
 }
 
+TEST_CASE("vtu: files that VTK 9.1 compressed by LZ4 and LZMA, in several blocks") {
+  if (!reads_vtu()) return;
+  for (const char* name :
+       {"binary_lz4.vtu", "appended_lz4.vtu", "binary_lzma.vtu", "appended_lzma.vtu"}) {
+    INFO(name);
+    const auto file = std::filesystem::path(PLEXWAY_SOURCE_DIR) / "tests/fuzz/corpus/vtu" / name;
+    try {
+      const auto solid = plexway::io::read_tets(file);
+      REQUIRE(solid.positions.size() == 216);
+      for (std::size_t v = 0; v < 216; ++v)
+        CHECK(solid.positions[v] == std::array<double, 3>{double(v % 6), double(v / 6 % 6),
+                                                          static_cast<double>(v / 36) / 2});
+      REQUIRE(solid.tets.size() == 750);
+      CHECK(solid.tets[0] == std::array<std::uint32_t, 4>{0, 1, 7, 43});
+      CHECK(solid.tets[749] == std::array<std::uint32_t, 4>{172, 208, 214, 215});
+    } catch (const plexway::NotBuiltError& missing) {
+      CHECK_THAT(missing.what(), Contains("install libl"));
+      continue;
+    }
+    // Whatever stands in the blocks, it is refused or comes to as many bytes.
+    std::ifstream in(file, std::ios::binary);
+    const std::string whole{std::istreambuf_iterator<char>(in), {}};
+    std::size_t refused = 0;
+    for (std::size_t at = 1100; at < whole.size() - 100; at += 97) {
+      std::string bad = whole;
+      bad[at] = static_cast<char>(bad[at] ^ 1);
+      try {
+        (void)parse_vtu(bad, "mesh");
+      } catch (const plexway::InputError&) {
+        ++refused;
+      }
+    }
+    CHECK(refused > 0);
+  }
+}
+
 TEST_CASE("vtu: files cut off anywhere are refused") {
   if (!reads_vtu()) return;
   for (const std::string format : {"ascii", "binary", "raw", "appended"}) {
@@ -227,11 +263,12 @@ TEST_CASE("vtu: what is wrong is named with its line") {
         "mesh:10: array 'Points': byte 0: there should be 6 points, but only 120 bytes follow");
   CHECK(vtu_complaint(replaced(raw, "\"5\" NumberOfCells", "\"4\" NumberOfCells")) ==
         "mesh:10: array 'Points': byte 96: points goes on for 24 bytes after its last value");
-  CHECK(vtu_complaint(replaced(raw, "byte_order",
-                               "compressor=\"vtkLZ4DataCompressor\" "
-                               "byte_order")) ==
-        "mesh:10: data packed by 'vtkLZ4DataCompressor' are not read; save the file with zlib or "
-        "without compression");
+  CHECK(
+      vtu_complaint(replaced(raw, "byte_order",
+                             "compressor=\"vtkBlosc2DataCompressor\" "
+                             "byte_order")) ==
+      "mesh:10: data packed by 'vtkBlosc2DataCompressor' are not read; save the file with zlib or "
+      "without compression");
   const std::string inline64 = Writer({"binary", false, false, false}).file();
   CHECK_THAT(vtu_complaint(replaced(inline64, "eAAAA", "eAAA-")),
              Contains("its base64 holds something else"));
@@ -257,7 +294,7 @@ TEST_CASE(
       decode_vtu_array(plain, false, encoding, "a", room),
       Contains("a: would unpack to more than the 4 bytes") && Contains("out of proportion"));
   // Thirty blocks of 64 kB in a few bytes, refused before any is unpacked.
-  encoding.compressed = true;
+  encoding.packing = plexway::io::VtuPacking::zlib;
   Packer header(false);
   for (const std::uint32_t n : {30u, 65536u, 0u}) header.put(n);
   for (int b = 0; b < 30; ++b) header.put(80u);

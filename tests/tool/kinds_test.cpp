@@ -85,11 +85,7 @@ TEST_CASE("info tells what a solid is made of") {
   CHECK(info["edge_length"]["max"].get<double>() == Approx(0.25 * std::sqrt(3.0)));
   CHECK(info["bounding_box"]["max"] == nlohmann::json{2.0, 2.0, 1.0});
   CHECK(info["warnings"].empty());
-#ifdef PLEXWAY_HAS_BOOST_GRAPH
   CHECK(info["component_sizes"] == nlohmann::json::array({325}));
-#else
-  CHECK(info["component_sizes"].is_null());
-#endif
 }
 
 TEST_CASE("info warns of what may surprise in a solid") {

@@ -1,4 +1,4 @@
-#include "shape/arguments/source_argument.hpp"
+#include "shape/arguments/arguments.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -10,10 +10,8 @@
 #include <plexway/shape/support.hpp>
 
 #include "io/number_rows.hpp"
-#include "shape/arguments/point_argument.hpp"
-#include "shape/arguments/require.hpp"
+#include "shape/boundary.hpp"
 #include "shape/shape_state.hpp"
-#include "shape/warnings/walls.hpp"
 #include "shape/words.hpp"
 
 namespace plexway {

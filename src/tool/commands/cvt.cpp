@@ -1,8 +1,6 @@
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -11,12 +9,12 @@
 #include <plexway/sampling/poisson_disk.hpp>
 #include <plexway/solve.hpp>
 
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/point_file.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/sampling_command.hpp"
+#include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -169,25 +167,21 @@ void add_cvt_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<CvtCommand>();
   CLI::App& app = *tool.add_subcommand(
       "cvt", "Points in the middle of their Voronoi cells (centroidal Voronoi tessellation)");
+  const OptionGroup add(app);
   add_sampling_options(app, *command, "write the seeds: .csv .npy .obj .ply by extension");
   add_picture_options(app, command->picture);
-  app.add_option("--count,-n", command->count, "so many seeds")
+  add("--count,-n", command->count, "N", "so many seeds")
       ->required()
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("N");
-  app.add_option("--seed", command->seed, "of the Poisson disks that it starts from (default 1)")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("S");
-  app.add_option("--iterations", command->iterations, "at most so many (default 100)")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("N");
-  app.add_option("--tolerance", command->tolerance,
-                 "stop when seeds move by less, in sizes of a cell (default 0.001)")
-      ->type_name("T");
-  app.add_option("--centre", command->centre,
-                 "where a seed moves in its cell: centroid (default), or border: where it is\n"
-                 "farthest from the border")
-      ->type_name("NAME");
+      ->check(CLI::NonNegativeNumber);
+  add("--seed", command->seed, "S", "of the Poisson disks that it starts from (default 1)")
+      ->check(CLI::NonNegativeNumber);
+  add("--iterations", command->iterations, "N", "at most so many (default 100)")
+      ->check(CLI::NonNegativeNumber);
+  add("--tolerance", command->tolerance, "T",
+      "stop when seeds move by less, in sizes of a cell (default 0.001)");
+  add("--centre", command->centre, "NAME",
+      "where a seed moves in its cell: centroid (default), or border: where it is\n"
+      "farthest from the border");
   add_output(app, "--cells", command->cells,
              "write each vertex's distance and cell: .csv .ply .vtk .vtu", "csv");
   add_output(app, "--dual", command->dual, "write the triangles of seeds: .obj .off .ply", "obj");

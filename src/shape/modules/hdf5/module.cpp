@@ -2,8 +2,8 @@
 
 #include <io/hdf5/include/plexway/hdf5/matrix.hpp>
 
-#include "file/unfinished.hpp"
-#include "shape/modules/hdf5_functions.hpp"
+#include "file/new_file.hpp"
+#include "shape/modules/module.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <plexway/openvdb/solid.hpp>
 #include <plexway/openvdb/surface.hpp>
 
-#include "file/unfinished.hpp"
-#include "shape/modules/openvdb_functions.hpp"
+#include "file/new_file.hpp"
+#include "shape/modules/module.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <plexway/pcl/files.hpp>
 #include <plexway/pcl/filters.hpp>
 
-#include "file/unfinished.hpp"
-#include "shape/modules/pcl_functions.hpp"
+#include "file/new_file.hpp"
+#include "shape/modules/module.hpp"
 
 namespace {
 
