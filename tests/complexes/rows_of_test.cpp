@@ -1,19 +1,26 @@
+#include <array>
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <list>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
 #include <plexway/cloud/point_cloud.hpp>
+#include <plexway/common/blocks.hpp>
 #include <plexway/common/rows_of.hpp>
+#include <plexway/error.hpp>
 #include <plexway/metric/edge_lengths.hpp>
 #include <plexway/simplicial/simplicial_complex.hpp>
 #include <plexway/solid/tet_mesh.hpp>
 #include <plexway/solve.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 #include <plexway/wireframe/wireframe.hpp>
-
-#include <array>
-#include <catch2/catch.hpp>
-#include <cmath>
-#include <cstdint>
-#include <list>
-#include <utility>
-#include <vector>
 
 namespace plexway::testing::rows_of_test {
 
@@ -115,6 +122,54 @@ TEST_CASE("rows that are none are refused") {
                     "row 0: 4294967296 is no number of a vertex");
   CHECK_THROWS_WITH(three(Matrix<int, true>{{0, 1}, 1, 2}), "row 0: expected 3 numbers");
   CHECK(three(std::vector<int>()).empty());
+}
+
+TEST_CASE("blocks cover every number once on any number of threads") {
+  for (const int threads : {0, 1, 2, 5})
+    for (const std::size_t count : {0u, 1u, 9u, 10u, 11u, 1000u}) {
+      std::vector<std::atomic<int>> seen(count);
+      double last = 0;
+      plexway::for_blocks(
+          count, 10, threads,
+          [&](double share) {
+            CHECK(share >= last);
+            last = share;
+            return true;
+          },
+          [&](std::size_t first, std::size_t end) {
+            for (std::size_t i = first; i < end; ++i) ++seen[i];
+          });
+      for (const auto& s : seen) CHECK(s == 1);
+      CHECK(last <= 1);
+    }
+}
+
+TEST_CASE("blocks hand on what work throws, and stop when progress says so") {
+  for (const int threads : {1, 4}) {
+    CHECK_THROWS_AS(plexway::for_blocks(1000, 10, threads, {},
+                                        [](std::size_t first, std::size_t) {
+                                          if (first == 500) throw std::out_of_range("500");
+                                        }),
+                    std::out_of_range);
+    CHECK_THROWS_AS(
+        plexway::for_blocks(
+            1000000, 10, threads, [](double) { return false; }, [](std::size_t, std::size_t) {}),
+        plexway::Cancelled);
+  }
+}
+
+TEST_CASE("of several blocks that fail the first one counts") {
+  for (const int threads : {1, 3, 8})
+    for (int turn = 0; turn < 50; ++turn)
+      CHECK_THROWS_WITH(
+          plexway::for_blocks(1000, 1, threads, {},
+                              [](std::size_t first, std::size_t) {
+                                if (first < 40) return;
+                                if (first == 40)
+                                  std::this_thread::sleep_for(std::chrono::microseconds(200));
+                                throw std::out_of_range(std::to_string(first));
+                              }),
+          "40");
 }
 
 }  // namespace plexway::testing::rows_of_test
