@@ -5,11 +5,6 @@
 #include <limits>
 
 namespace plexway::strings {
-namespace {
-
-constexpr double rounding = 1e-9;
-
-}  // namespace
 
 MediaSolver::MediaSolver(const MediaSpace& space)
     : space_(&space),

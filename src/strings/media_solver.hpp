@@ -62,6 +62,7 @@ class MediaSolver {
   using Kind = MediaSpace::Kind;
   static constexpr double unreached = std::numeric_limits<double>::infinity();
   static constexpr double unmoved = 1e-9;  // an end that moved less did not move
+  static constexpr double rounding = 1e-9;
   static constexpr double outside = 1e-6;  // of a patch
   static constexpr double gain = 1e-7;     // slopes that count, of the slowness
   static constexpr double brief = 1e-5;    // legs that may have no length

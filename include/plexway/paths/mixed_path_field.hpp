@@ -68,8 +68,9 @@ class PathField<MixedComplex<Real>> {
   /// a hinge between two speeds where Fermat says, runs along a fast sheet where that pays, and
   /// meets wires at their vertices only, as distances do.
   ///
-  /// Where all pieces lie in one space, with a solid among them and no sheet of many facets, it is
-  /// the string to the point, as long as the distance. Elsewhere it is searched for by the
+  /// Where strings solve the domain it is the string to the point, as long as the distance: all
+  /// pieces lie in one space, with a solid among them and no sheet of many facets, and they are not
+  /// solids that join to one of one speed. Elsewhere it is searched for by the
   /// distances of vertices; where it is more than 5e-4 longer than the distance, or inside a
   /// simplex than a path by one of its corners, three times, each time more finely. Throws
   /// UsageError for a point that is not in the domain, or before a solve. Any number of threads may
