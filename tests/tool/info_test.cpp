@@ -176,6 +176,9 @@ TEST_CASE("help and version go to standard output") {
   CHECK(version.code == 0);
   CHECK(version.out.rfind("plexway 0.", 0) == 0);
   CHECK(version.out.find("MIT") != std::string::npos);
+#ifdef PLEXWAY_HAS_TETGEN
+  CHECK(version.out.find("TetGen 1.5 (AGPL)") != std::string::npos);
+#endif
 }
 
 // The manual page and the completions have what --help has.
