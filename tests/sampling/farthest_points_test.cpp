@@ -1,5 +1,6 @@
 #include <plexway/sampling/farthest_points.hpp>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
 #include <string>
@@ -12,6 +13,7 @@
 #include <plexway/sampling/poisson_disk.hpp>
 #include <plexway/solid/tet_mesh.hpp>
 
+#include "data/solid_shapes.hpp"
 #include "labels/cracked_solid.hpp"
 #include "sampling/sampling_testing.hpp"
 
@@ -42,6 +44,25 @@ TEST_CASE("each further point of a square is the farthest from those before") {
   const auto coarse = farthest_points(Serial{}, mesh, start, {.count = 1000, .radius = 0.3});
   CHECK(coarse.covering <= 0.3);
   CHECK(coarse.points.size() < 40);
+}
+
+TEST_CASE("each further point of a bent solid is the farthest around the bend, exactly") {
+  const samples::Shape elbow = samples::elbow_solid();
+  const TetMesh<double> mesh(elbow.points, elbow.tets);
+  const std::vector<PointSource> start = {PointSource::at(0)};
+  const std::size_t count = std::min<std::size_t>(60, elbow.points.size());
+  const FarthestPoints found = farthest_points(Serial{}, mesh, start, {.count = count});
+  REQUIRE(found.points.size() == count);
+  std::vector<Point> chosen = {elbow.points[0]};
+  for (std::size_t n = 1; n < count; ++n) {
+    double farthest = 0;
+    for (const Point& p : elbow.points)
+      farthest = std::max(farthest, nearest(p, chosen, inside_elbow));
+    CHECK(found.distance[n] == Approx(farthest).epsilon(1e-9));
+    const Point& at = elbow.points[found.points[n].vertex];
+    CHECK(nearest(at, chosen, inside_elbow) == Approx(farthest).epsilon(1e-9));
+    chosen.push_back(at);
+  }
 }
 
 TEST_CASE("farthest points cost far less than a propagation each") {
