@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <plexway/solve/distance_field.hpp>
+#include <plexway/support.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
 #include "executors/simplex_numbers.hpp"
