@@ -46,8 +46,6 @@ struct Combination {
   bool label_options = false;
   /// Do its vertices have positions in space? Else purposes that draw or measure there have none.
   bool positions = true;
-  /// Is it a solid with a crack: two faces of its boundary that lie on each other?
-  bool cracked = false;
   /// Is it in parts over processes, of which none has the whole (SurfaceParts)?
   bool in_parts = false;
 };
@@ -264,7 +262,6 @@ constexpr Support support(Purpose purpose, const Combination& c) {
         return Refusal::samples_domain;
       if (refracting) return Refusal::search_refraction;
       if (by_lengths) return Refusal::samples_lengths;
-      if (c.cracked && saddles) return Refusal::samples_crack;
       break;
     case Purpose::darts:
       if (c.domain == cloud) return Refusal::darts_cloud;
@@ -365,13 +362,11 @@ constexpr Support support(Purpose purpose, DomainKind domain,
 /// The cell of a complex, with all its properties, by default options.
 template <DomainType D>
 [[nodiscard]] constexpr Combination combination_of(const D& domain, ExecutorKind executor) {
-  Combination what = {.executor = executor,
-                      .domain = D::kind,
-                      .dimension = D::dimension,
-                      .single_precision = std::is_same_v<typename D::Number, float>,
-                      .metric = domain.metric()};
-  if constexpr (D::kind == DomainKind::solid) what.cracked = domain.has_crack();
-  return what;
+  return {.executor = executor,
+          .domain = D::kind,
+          .dimension = D::dimension,
+          .single_precision = std::is_same_v<typename D::Number, float>,
+          .metric = domain.metric()};
 }
 /// Does a purpose go together with a complex?
 template <DomainType D>

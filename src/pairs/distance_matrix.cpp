@@ -66,7 +66,6 @@ DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points
                       const std::function<bool(double)>& progress, const SourceDomain& limits) {
   using Field = Growth<Complex>;
   using Real = typename Field::Number;
-  constexpr Index corners = Field::corners;
   SimplexNumbers<Complex> numbers(domain);
   WorkspaceState<Real> workspace;
   Field field(domain, workspace);
@@ -84,10 +83,7 @@ DistanceMatrix matrix(const Complex& domain, std::span<const PointSource> points
         for (std::size_t j = 0; j < points.size(); ++j) {
           Real found = std::numeric_limits<Real>::infinity();
           if (points[j].vertex != none) {
-            field.each_corner_at(domain.inside_vertex(points[j].vertex), [&](Index c) {
-              if (field.reached(c / corners))
-                found = std::min(found, field.corner_distance(c / corners, c % corners));
-            });
+            found = field.vertex_distance(domain.inside_vertex(points[j].vertex));
           } else {
             const auto [s, weights] = numbers.inside(points[j]);
             field.each_label(s, [&, &weights = weights](Index, const auto& distance) {
@@ -133,7 +129,12 @@ DistanceMatrix any_matrix(const Complex& domain, std::span<const PointSource> po
   const Accuracy found = resolved(accuracy, cell);
   if (found == Accuracy::fast()) {
     support(Purpose::samples, domain).require();
-    return matrix(domain, points, progress, limits);
+    // In solids strings are as quick.
+    if constexpr (std::is_same_v<Complex, TetMesh<typename Growth<Complex>::Number>>)
+      return field_matrix(domain, points, progress, Accuracy::accurate(), Accuracy::accurate(),
+                          limits);
+    else
+      return matrix(domain, points, progress, limits);
   }
   return field_matrix(domain, points, progress, accuracy, found, limits);
 }

@@ -238,28 +238,22 @@ class CellMoments<TetMesh<Real>> {
 
   template <class Add>
   void each(std::span<const Place> seeds, Add add) {
-    const auto rule = field_.rule();
     for (Index t = 0; t < field_.simplices(); ++t) {
       if (!field_.reached(t)) continue;
+      const auto bend = field_.first_bend(t);
       const auto& seed = seeds[field_.source(t)];
-      const Vector3<Real> from = field_.position(seed.first, seed.second);
-      const Vector3<Real>& centre = mesh_.tets()[t].centre;
-      const auto& label = field_.label(t);
-      Vector3<Real> to = label.sigma > 0 ? label.source : rule.seen_from(t, centre).eye;
-      if (norm(to - from) <= Real(1e-5)) to = centre;
-      const Vector3<Real> way = to - from;
+      const auto way = bend - field_.position(seed.first, seed.second);
       const double d = static_cast<double>(field_.distance(t));
-      const double length = static_cast<double>(norm(way));
+      const double length = norm(way);
       const double scale = length > 0 ? d / length : 0;
+      const Vector3<Real>& centre = mesh_.tets()[t].centre;
       double own = 0;
       for (const Index v : mesh_.tets()[t].corner) {
         const Vector3<Real> r = mesh_.points()[v] - centre;
         own += static_cast<double>(dot(r, r)) / 20;
       }
       add(field_.source(t), static_cast<double>(field_.measure(t)),
-          {scale * static_cast<double>(way.x), scale * static_cast<double>(way.y),
-           scale * static_cast<double>(way.z)},
-          d * d, own);
+          {scale * way.x, scale * way.y, scale * way.z}, d * d, own);
     }
   }
 

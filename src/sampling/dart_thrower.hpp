@@ -58,13 +58,7 @@ class DartThrower {
         darts_(std::move(target.earlier)),
         earlier_(darts_.size()) {
     field_.clear();
-    for (Index n = 0; n < darts_.size(); ++n) {
-      const Dart& dart = darts_[n];
-      if (dart.vertex != none)
-        field_.add_vertex(dart.vertex, limit_ - radius_of(n), n, limit_);
-      else
-        field_.add(dart.simplex, dart.weights, limit_ - radius_of(n), n, limit_);
-    }
+    for (Index n = 0; n < darts_.size(); ++n) add(darts_[n], n);
     if (options.at_vertices)
       throw_at_vertices(target.vertices, report);
     else
@@ -88,6 +82,7 @@ class DartThrower {
     Index simplex;
     int level = 0;
   };
+  static constexpr Real least_share = 1 - Real(5e-4);  ///< of a radius, between two darts
   static constexpr int most_levels = 64 / static_cast<int>(corners - 1);
 
   [[nodiscard]] bool open(Index s) const { return open_.empty() || open_[s]; }
@@ -100,16 +95,11 @@ class DartThrower {
       const Index v = order[n];
       if (n % 4096 == 0) report(static_cast<double>(n) / static_cast<double>(order.size()));
       ++thrown_;
-      Real nearest = std::numeric_limits<Real>::infinity(), size = 0;
-      field_.each_corner_at(v, [&](Index c) {
-        const Index s = c / static_cast<Index>(corners);
-        size = std::max(size, field_.size(s));
-        if (field_.reached(s)) nearest = std::min(nearest, field_.corner_distance(s, c % corners));
-      });
+      const Real nearest = field_.vertex_distance(v);
       if (nearest < limit_) continue;
-      const Real own = static_cast<Real>(radii_[v]);
-      field_.add_vertex(v, limit_ - own, static_cast<Index>(darts_.size()), limit_);
-      if (keep(nearest, size, own)) darts_.push_back({v, none, {}});
+      Real size = 0;
+      field_.each_corner_at(v, [&](Index c) { size = std::max(size, field_.size(c / corners)); });
+      (void)take({v, none, {}}, nearest, size);
     }
   }
 
@@ -273,22 +263,43 @@ class DartThrower {
       nearest = std::min(nearest, distance(w));
       return nearest < limit_;
     });
-    if (nearest < limit_) return false;
-    double own = 0;
-    for (std::size_t k = 0; k < corners; ++k) own += w[k] * radii_[field_.corners_of(s)[k]];
-    field_.add(s, w, limit_ - static_cast<Real>(own), static_cast<Index>(darts_.size()), limit_);
-    if (!keep(nearest, field_.size(s), static_cast<Real>(own))) return false;
-    darts_.push_back({none, s, w});
-    return true;
+    return !(nearest < limit_) && take({none, s, w}, nearest, field_.size(s));
   }
 
-  /// A simplex keeps one label, that of the dart nearest to its centre, so another may be
-  /// overlooked at its corners. It shows where the fronts meet: halfway to it, where nobody else is
-  /// near.
-  bool keep(Real nearest, Real size, Real own) {
-    if (nearest > limit_ + 4 * size) return true;
-    const Index number = static_cast<Index>(darts_.size());
-    constexpr Real least = 1 - Real(5e-4);
+  void add(const Dart& dart, Index number) {
+    const Real sigma = limit_ - radius_of(dart);
+    if (dart.vertex != none)
+      field_.add_vertex(dart.vertex, sigma, number, limit_);
+    else
+      field_.add(dart.simplex, dart.weights, sigma, number, limit_);
+  }
+
+  /// Labels keep one or two darts, the nearest, so another may be overlooked. `nearest` is how far
+  /// those are.
+  bool take(const Dart& dart, Real nearest, Real size) {
+    const bool far = nearest > limit_ + 4 * size;
+    const auto number = static_cast<Index>(darts_.size());
+    const Real own = radius_of(dart);
+    bool fits = true;
+    if constexpr (Field::exact) {
+      const auto reach = [&](Index n) { return radius_of(darts_[n]) * least_share; };
+      fits = far || !field_.is_near_another(dart.vertex, dart.simplex, dart.weights, own, reach);
+      if (fits) add(dart, number);
+    } else {
+      add(dart, number);
+      fits = far || keeps_off(number, own);
+      if (!fits) field_.remove_last(number, limit_);
+    }
+    if (fits)
+      darts_.push_back(dart);
+    else
+      ++taken_back_;
+    return fits;
+  }
+
+  /// A triangle keeps one label, that of the dart nearest to its centre. Another shows where the
+  /// fronts meet: halfway to it, where nobody else is near.
+  bool keeps_off(Index number, Real own) {
     bool fits = true;
     for (const Index s : field_.touched()) {
       if (!fits) break;
@@ -297,18 +308,14 @@ class DartThrower {
           field_.distance(s) - (limit_ - own) - 2 * field_.size(s) > own / 2)
         continue;
       field_.each_meeting(s, [&](Real length, Index other) {
-        const Real radius = radius_of(other);
-        fits = fits && length - (limit_ - own) - (limit_ - radius) >= radius * least;
+        const Real radius = radius_of(darts_[other]);
+        fits = fits && length - (limit_ - own) - (limit_ - radius) >= radius * least_share;
       });
     }
-    if (fits) return true;
-    field_.remove_last(number, limit_);
-    ++taken_back_;
-    return false;
+    return fits;
   }
 
-  [[nodiscard]] Real radius_of(Index dart) const {
-    const Dart& d = darts_[dart];
+  [[nodiscard]] Real radius_of(const Dart& d) const {
     if (d.vertex != none) return static_cast<Real>(radii_[d.vertex]);
     double radius = 0;
     for (std::size_t k = 0; k < corners; ++k)

@@ -51,7 +51,7 @@ class Traversal {
     while (!farthest.empty()) {
       const auto [known, packed] = farthest.top();
       const Index v = none - packed;
-      Real now = distance(domain_.inside_vertex(v));
+      Real now = field_.vertex_distance(domain_.inside_vertex(v));
       if (const auto own = offset.find(v); own != offset.end()) now = std::min(now, own->second);
       farthest.pop();
       if (now < known) {
@@ -83,16 +83,6 @@ class Traversal {
       const auto [s, weights] = numbers_.inside(point);
       field_.add(s, weights, sigma, number, infinity);
     }
-  }
-
-  Real distance(Index vertex) {
-    constexpr Index corners = Field::corners;
-    Real nearest = std::numeric_limits<Real>::infinity();
-    field_.each_corner_at(vertex, [&](Index c) {
-      if (field_.reached(c / corners))
-        nearest = std::min(nearest, field_.corner_distance(c / corners, c % corners));
-    });
-    return nearest;
   }
 
   const Complex& domain_;

@@ -17,12 +17,12 @@ class Chains {
     Index parent, place;
   };
 
-  /// Chains 0, 1, ... with no place, one a source.
-  void start(std::size_t sources) {
+  void clear() {
     links_.clear();
-    for (Index n = 0; n < sources; ++n) links_.push_back({none, n});
     table_.assign(64, none);
   }
+  /// The chain with no place.
+  Index root(Index source) { return with(none, source); }
   /// The chain with a place behind.
   Index with(Index parent, Index place) {
     if (2 * links_.size() > table_.size()) grow();
@@ -63,7 +63,6 @@ class Chains {
   void grow() {
     table_.assign(2 * table_.size(), none);
     for (Index c = 0; c < links_.size(); ++c) {
-      if (is_root(c)) continue;
       std::size_t slot = slot_of(links_[c].parent, links_[c].place);
       while (table_[slot] != none) slot = (slot + 1) & (table_.size() - 1);
       table_[slot] = c;

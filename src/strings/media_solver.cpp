@@ -77,7 +77,8 @@ void MediaSolver::seed() {
       for (const Index i : source.simplices)
         roots_.push_back({s, space_->simplices()[i].medium, none, i, space_->beside(i, source.at)});
   }
-  chains_.start(roots_.size());
+  chains_.clear();
+  for (Index n = 0; n < roots_.size(); ++n) chains_.root(n);
   hints_.assign(roots_.size(), {});
   nodes_.assign(space_->nodes() + 1, {});
   best_.assign(space_->points() + 1, unreached);

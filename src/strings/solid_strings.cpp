@@ -8,54 +8,71 @@
 #include "complexes/common/number_range.hpp"
 
 namespace plexway {
-namespace {
 
 using strings::Point;
+
+strings::Source source_at(const strings::SolidSpace& space, Index vertex, double offset) {
+  strings::Source source;
+  source.vertex = vertex;
+  source.at = source.beside = space.point(vertex);
+  source.offset = offset;
+  return source;
+}
+
+namespace {
 
 template <class Real>
 strings::Source source_of(const TetMesh<Real>& mesh, const strings::SolidSpace& space,
                           const PointSource& given) {
-  strings::Source source;
-  source.offset = given.offset / mesh.unit();
-  if (given.vertex != none) {
-    source.vertex = mesh.inside_vertex(given.vertex);
-    source.at = source.beside = space.point(source.vertex);
-    return source;
-  }
+  const double offset = given.offset / mesh.unit();
+  if (given.vertex != none) return source_at(space, mesh.inside_vertex(given.vertex), offset);
   const auto [tet, turned] = mesh.inside_tet(given.simplex);
   std::array<double, 4> b = given.barycentric;
   if (turned) std::swap(b[2], b[3]);
-  Point middle = {0, 0, 0};
+  return source_in(mesh, space, tet, b, offset);
+}
+
+}  // namespace
+
+template <class Real>
+strings::Source source_in(const TetMesh<Real>& mesh, const strings::SolidSpace& space, Index tet,
+                          const std::array<double, 4>& weight, double offset) {
+  strings::Source source;
+  source.offset = offset;
   source.at = {0, 0, 0};
+  Point middle = {0, 0, 0};
   for (std::size_t i = 0; i < 4; ++i) {
     source.corners[i] = mesh.tets()[tet].corner[i];
-    source.at = source.at + b[i] * space.point(source.corners[i]);
+    source.at = source.at + weight[i] * space.point(source.corners[i]);
     middle = middle + .25 * space.point(source.corners[i]);
   }
   source.beside = source.at + space.aside() * strings::unit(middle - source.at);
   return source;
 }
 
-}  // namespace
+template <class Real>
+std::shared_ptr<const strings::SolidSpace> space_of(const TetMesh<Real>& mesh) {
+  return mesh.space().template get<strings::SolidSpace>(
+      [&] { return std::make_shared<const strings::SolidSpace>(mesh); });
+}
 
 template <class Real>
 void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
                          const PropagateOptions& options, DistanceField<Real>& field) {
   NumberRange<Real>::check_unit(mesh.unit());
   if (!solver_ || identity_ != mesh.identity()) {
-    space_ = mesh.space().template get<strings::SolidSpace>(
-        [&] { return std::make_shared<const strings::SolidSpace>(mesh); });
+    space_ = space_of(mesh);
     solver_ = std::make_unique<strings::Solver>(*space_);
     identity_ = mesh.identity();
     unit_ = mesh.unit();
   }
-  sources_.clear();
+  std::vector<strings::Source> own;
   inside_.clear();
   inside_.reserve(sources.size());
   for (const PointSource& s : sources) {
     if (s.vertex == none)
-      inside_.emplace_back(mesh.inside_tet(s.simplex).first, static_cast<Index>(sources_.size()));
-    sources_.push_back(source_of(mesh, *space_, s));
+      inside_.emplace_back(mesh.inside_tet(s.simplex).first, static_cast<Index>(own.size()));
+    own.push_back(source_of(mesh, *space_, s));
   }
   std::sort(inside_.begin(), inside_.end());
   const std::size_t vertices = mesh.vertex_count();
@@ -68,7 +85,7 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
                              distance * mesh.unit()}))
         throw Cancelled("cancelled by the progress callback");
     };
-  field.complete = solver_->solve(sources_, limits);
+  field.complete = solver_->solve(own, limits);
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   field.distance.resize(vertices);
   field.label.assign(sources.size() > 1 ? vertices : 0, none);
@@ -120,10 +137,14 @@ SolidStrings::Found SolidStrings::at(const TetMesh<Real>& mesh, Index tet,
   return found(static_cast<Index>(space_->vertices()));
 }
 
-std::size_t SolidStrings::bytes() const {
-  return sizeof(*this) + (solver_ ? solver_->bytes() : 0) +
-         sources_.capacity() * sizeof(strings::Source);
-}
+std::size_t SolidStrings::bytes() const { return sizeof(*this) + (solver_ ? solver_->bytes() : 0); }
+
+template std::shared_ptr<const strings::SolidSpace> space_of(const TetMesh<float>&);
+template std::shared_ptr<const strings::SolidSpace> space_of(const TetMesh<double>&);
+template strings::Source source_in(const TetMesh<float>&, const strings::SolidSpace&, Index,
+                                   const std::array<double, 4>&, double);
+template strings::Source source_in(const TetMesh<double>&, const strings::SolidSpace&, Index,
+                                   const std::array<double, 4>&, double);
 
 template void SolidStrings::solve(const TetMesh<float>&, std::span<const PointSource>,
                                   const PropagateOptions&, DistanceField<float>&);

@@ -19,6 +19,15 @@
 /// Solids by strings (src/strings): between the library's sources, options and fields, and theirs.
 namespace plexway {
 
+/// A vertex, or a point of a tetrahedron by one coordinate a corner, as a source; inside.
+strings::Source source_at(const strings::SolidSpace& space, Index vertex, double offset);
+template <class Real>
+strings::Source source_in(const TetMesh<Real>& mesh, const strings::SolidSpace& space, Index tet,
+                          const std::array<double, 4>& weight, double offset);
+/// A solid's space, which it keeps.
+template <class Real>
+std::shared_ptr<const strings::SolidSpace> space_of(const TetMesh<Real>& mesh);
+
 /// What a solve by strings leaves; its memory is used again by the next one.
 class SolidStrings {
  public:
@@ -52,7 +61,6 @@ class SolidStrings {
   std::shared_ptr<const strings::SolidSpace> space_;  // the solid's
   std::unique_ptr<strings::Solver> solver_;
   mutable std::mutex asked_;
-  std::vector<strings::Source> sources_;
   std::vector<std::pair<Index, Index>> inside_;  // tetrahedra with sources inside, and these
 };
 

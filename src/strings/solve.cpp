@@ -12,14 +12,22 @@ constexpr double rounding = 1e-9;
 
 }  // namespace
 
-bool Solver::solve(std::span<const Source> sources, const Limits& limits) {
-  sources_ = sources;
+void Solver::clear() {
+  sources_.clear();
   counts_ = {};
-  chains_.start(sources.size());
-  hints_.assign(sources.size(), 0);
-  vertices_.assign(space_->vertices() + 1, {});
+  chains_.clear();
+  hints_.clear();
+  if (vertices_.empty()) vertices_.resize(space_->vertices() + 1);
+  for (const Index v : reached_) vertices_[v] = {};
+  reached_.clear();
+}
+
+bool Solver::add(std::span<const Source> sources, const Limits& limits) {
+  const std::size_t before = counts_.expansions, first = sources_.size();
+  sources_.insert(sources_.end(), sources.begin(), sources.end());
   queue_.clear();
-  seed(sources);
+  prepared_ = false;
+  for (std::size_t n = first; n < sources_.size(); ++n) seed(static_cast<Index>(n));
   while (!queue_.empty()) {
     std::pop_heap(queue_.begin(), queue_.end());
     const Offer next = queue_.back();
@@ -27,31 +35,32 @@ bool Solver::solve(std::span<const Source> sources, const Limits& limits) {
     if (next.distance > limits.radius) break;
     const Label* found = vertices_[next.vertex].find(next.chain, next.distance);
     if (found == nullptr) continue;
-    if (counts_.expansions >= limits.expansions) return false;
-    if (limits.progress && counts_.expansions % 1024 == 0)
-      limits.progress(counts_.expansions, next.distance);
+    const std::size_t expansions = counts_.expansions - before;
+    if (expansions >= limits.expansions) return false;
+    if (limits.progress && expansions % 1024 == 0) limits.progress(expansions, next.distance);
     ++counts_.expansions;
     expand(next.vertex, Label(*found));
   }
   return true;
 }
 
-void Solver::seed(std::span<const Source> sources) {
-  for (Index n = 0; n < sources.size(); ++n) {
-    const Source& source = sources[n];
-    if (source.vertex != none) {
-      take(source.vertex, {source.offset, n, {0, 0, 0}});
-      continue;
-    }
-    for (const Index v : source.corners) {
-      const Point leg = space_->point(v) - source.at;
-      take(v, {source.offset + norm(leg), n, unit(leg)});
-    }
+void Solver::seed(Index number) {
+  const Source& source = sources_[number];
+  const Index chain = chains_.root(number);
+  if (source.vertex != none) {
+    take(source.vertex, {source.offset, chain, {0, 0, 0}});
+    return;
+  }
+  for (const Index v : source.corners) {
+    const Point leg = space_->point(v) - source.at;
+    take(v, {source.offset + norm(leg), chain, unit(leg)});
   }
 }
 
 void Solver::take(Index vertex, const Label& label) {
+  const bool first = vertices_[vertex].best().chain == none;
   if (!vertices_[vertex].take(label, behind_)) return;
+  if (first && vertex != space_->vertices()) reached_.push_back(vertex);
   ++counts_.labels;
   queue_.push_back({label.distance, vertex, label.chain});
   std::push_heap(queue_.begin(), queue_.end());
@@ -65,8 +74,10 @@ void Solver::expand(Index vertex, const Label& label) {
 
 // The string to the vertex itself, whose legs are free.
 void Solver::prepare(Index vertex, const Label& label) {
-  if (prepared_) return;
+  if (prepared_ && base_vertex_ == vertex && base_chain_ == label.chain) return;
   prepared_ = true;
+  base_vertex_ = vertex;
+  base_chain_ = label.chain;
   Attempt& a = base_;
   chains_.places(label.chain, a.places);
   const Source& source = sources_[chains_.source(label.chain)];
@@ -99,12 +110,14 @@ void Solver::offer(Index from, const Label& label, Index to) {
   if (label.distance + dot(label.last, way) >= at.limit(behind_, label.last)) return;
   direct_ = (label.distance + norm(way)) * (1 + rounding);
   const Outcome outcome = attempt(from, label, to);
+  if (outcome == Outcome::free) accept(attempt_, to);
   // Where it was blocked it may come past on another side from another vertex.
-  if (outcome != Outcome::stuck && !attempt_.touched) at.remember(label.chain);
+  if (outcome != Outcome::stuck && !attempt_.touched && at.best().chain != none)
+    at.remember(label.chain);
   if (outcome != Outcome::stuck &&
       sources_[attempt_.source].offset + attempt_.string.length < direct_)
     return;
-  attempt_corner(from, label, to);
+  if (attempt_corner(from, label, to) == Outcome::free) accept(attempt_, to);
 }
 
 // A vertex' string, pulled to another one.
@@ -113,14 +126,12 @@ Solver::Outcome Solver::attempt(Index from, const Label& label, Index to) {
   attempt_ = base_;
   attempt_.touched = false;
   attempt_.string.to = point(to);
-  Outcome outcome = settle(attempt_, to, infinity);
-  if (outcome != Outcome::longer) outcome = past_corners(attempt_, to, outcome);
-  if (outcome == Outcome::free) accept(attempt_, to);
-  return outcome;
+  const Outcome outcome = settle(attempt_, to, infinity);
+  return outcome == Outcome::longer ? outcome : past_corners(attempt_, to, outcome);
 }
 
 // On from the vertex itself along the edge, and what is shorter past it.
-void Solver::attempt_corner(Index from, const Label& label, Index to) {
+Solver::Outcome Solver::attempt_corner(Index from, const Label& label, Index to) {
   prepare(from, label);
   attempt_ = base_;
   attempt_.string.to = point(to);
@@ -128,7 +139,7 @@ void Solver::attempt_corner(Index from, const Label& label, Index to) {
   insert(attempt_, attempt_.places.size(), static_cast<Index>(space_->places().size()) + from, at,
          at);
   const Outcome outcome = settle(attempt_, to, infinity);
-  if (past_corners(attempt_, to, outcome) == Outcome::free) accept(attempt_, to);
+  return past_corners(attempt_, to, outcome);
 }
 
 const Place* Solver::place(Index number) {
@@ -343,7 +354,7 @@ bool Solver::past_corner(Attempt& a, Index to, Outcome& outcome, std::size_t beg
 }
 
 void Solver::accept(const Attempt& a, Index to) {
-  Index chain = a.source;
+  Index chain = chains_.root(a.source);
   for (std::size_t i = 0; i < a.places.size(); ++i) {
     chain = chains_.with(chain, a.places[i]);
     hints_.resize(chains_.size(), 0);
@@ -363,16 +374,33 @@ void Solver::attach(const Point& at, const std::array<Index, 4>& corners,
   vertices_[number] = {};
   for (const Index n : sources) {
     const Point leg = at - sources_[n].at;
-    take(number, {sources_[n].offset + norm(leg), n, unit(leg)});
+    take(number, {sources_[n].offset + norm(leg), chains_.root(n), unit(leg)});
   }
   for (const Index v : corners) {
     from_ = v;
     for (const Label& label : VertexLabels(vertices_[v]).labels) {
-      prepared_ = false;
       if (label.chain != none) offer(v, label, number);
     }
   }
   queue_.clear();
+}
+
+double Solver::moved(Index vertex, const Label& label, const Point& at, const Point& beside) {
+  const Source& root = sources_[source_of(label)];
+  if (chains_.is_root(label.chain)) {
+    const Point from =
+        root.vertex == none ? root.beside : space_->beside(root.vertex, at, point(vertex));
+    if (!space_->sight().is_blocked(from, beside)) return root.offset + norm(at - root.at);
+  }
+  const auto number = static_cast<Index>(space_->vertices());
+  vertices_[number] = {};
+  attached_ = at;
+  attached_beside_ = beside;
+  direct_ = infinity;
+  from_ = vertex;
+  const bool free = attempt(vertex, label, number) == Outcome::free ||
+                    attempt_corner(vertex, label, number) == Outcome::free;
+  return free ? root.offset + attempt_.string.length : infinity;
 }
 
 std::vector<Point> Solver::path(Index vertex) {
@@ -388,7 +416,8 @@ std::vector<Point> Solver::path(Index vertex) {
 
 std::size_t Solver::bytes() const {
   return chains_.bytes() + hints_.capacity() * sizeof(double) +
-         vertices_.capacity() * sizeof(VertexLabels) + queue_.capacity() * sizeof(Offer);
+         vertices_.capacity() * sizeof(VertexLabels) + reached_.capacity() * sizeof(Index) +
+         queue_.capacity() * sizeof(Offer);
 }
 
 }  // namespace plexway::strings

@@ -49,7 +49,15 @@ class Solver {
   explicit Solver(const SolidSpace& space) : space_(&space) {}
 
   /// False if the expansions ended before it did.
-  bool solve(std::span<const Source> sources, const Limits& limits);
+  bool solve(std::span<const Source> sources, const Limits& limits) {
+    clear();
+    return add(sources, limits);
+  }
+  /// No source, and nothing is reached. Cost: what was reached.
+  void clear();
+  /// Further sources, numbered on, as far as they are nearer than those before. The limits are for
+  /// these alone.
+  bool add(std::span<const Source> sources, const Limits& limits);
 
   /// +inf where nothing leads.
   [[nodiscard]] double distance(Index vertex) const { return vertices_[vertex].best().distance; }
@@ -58,9 +66,20 @@ class Solver {
     const Index chain = vertices_[vertex].best().chain;
     return chain == none ? none : chains_.source(chain);
   }
+  /// The strings of a vertex, the shortest first.
+  [[nodiscard]] std::span<const Label> labels(Index vertex) const {
+    return vertices_[vertex].labels;
+  }
+  [[nodiscard]] Index source_of(const Label& label) const { return chains_.source(label.chain); }
+  /// Vertices with strings, in the order that they were reached.
+  [[nodiscard]] std::span<const Index> reached() const { return reached_; }
   /// Takes a point of the tetrahedron with these corners, which these sources are in, for one more
   /// vertex, numbered SolidSpace::vertices(), until the next one.
   void attach(const Point& at, const std::array<Index, 4>& corners, std::span<const Index> sources);
+  /// The length of a vertex' string when its end is moved to another point, of which `beside` is a
+  /// little inside the solid; +inf where it is not found free.
+  [[nodiscard]] double moved(Index vertex, const Label& label, const Point& at,
+                             const Point& beside);
   /// The shortest path to a vertex, its bends and both ends, from the source on. Empty where
   /// nothing leads.
   [[nodiscard]] std::vector<Point> path(Index vertex);
@@ -90,12 +109,12 @@ class Solver {
     }
   };
 
-  void seed(std::span<const Source> sources);
+  void seed(Index source);
   void expand(Index vertex, const Label& label);
   void prepare(Index vertex, const Label& label);
   void offer(Index from, const Label& label, Index to);
   Outcome attempt(Index from, const Label& label, Index to);
-  void attempt_corner(Index from, const Label& label, Index to);
+  Outcome attempt_corner(Index from, const Label& label, Index to);
   Outcome settle(Attempt& attempt, Index to, double least);
   Outcome past_corners(Attempt& attempt, Index to, Outcome outcome);
   bool past_corner(Attempt& attempt, Index to, Outcome& outcome, std::size_t begin, std::size_t end,
@@ -119,10 +138,11 @@ class Solver {
   }
 
   const SolidSpace* space_;
-  std::span<const Source> sources_;
+  std::vector<Source> sources_;
   Chains chains_;
   std::vector<double> hints_;  // of a chain: where its last place was bent at last
   std::vector<VertexLabels> vertices_;
+  std::vector<Index> reached_;
   std::vector<Offer> queue_;
   std::unordered_map<Index, Place> corners_;
   Puller puller_;
@@ -131,6 +151,7 @@ class Solver {
   Index from_ = none;  // the vertex that offers
   Point attached_ = {0, 0, 0}, attached_beside_ = {0, 0, 0};
   bool prepared_ = false;
+  Index base_vertex_ = none, base_chain_ = none;  // whose string `base_` is, if it is prepared
   double direct_ = 0;  // on from there along the edge: a string that is offered is no longer
   double behind_ = .5;
   Counts counts_;

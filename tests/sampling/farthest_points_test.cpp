@@ -1,17 +1,17 @@
 #include <plexway/sampling/farthest_points.hpp>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
-#include <string>
 #include <vector>
 
-#include <plexway/domain/support.hpp>
 #include <plexway/error.hpp>
 #include <plexway/pairs/distance_matrix.hpp>
 #include <plexway/sampling/centroidal_voronoi.hpp>
 #include <plexway/sampling/poisson_disk.hpp>
 #include <plexway/solid/tet_mesh.hpp>
 
+#include "data/solid_shapes.hpp"
 #include "labels/cracked_solid.hpp"
 #include "sampling/sampling_testing.hpp"
 
@@ -42,6 +42,25 @@ TEST_CASE("each further point of a square is the farthest from those before") {
   const auto coarse = farthest_points(Serial{}, mesh, start, {.count = 1000, .radius = 0.3});
   CHECK(coarse.covering <= 0.3);
   CHECK(coarse.points.size() < 40);
+}
+
+TEST_CASE("each further point of a bent solid is the farthest around the bend, exactly") {
+  const samples::Shape elbow = samples::elbow_solid();
+  const TetMesh<double> mesh(elbow.points, elbow.tets);
+  const std::vector<PointSource> start = {PointSource::at(0)};
+  const std::size_t count = std::min<std::size_t>(60, elbow.points.size());
+  const FarthestPoints found = farthest_points(Serial{}, mesh, start, {.count = count});
+  REQUIRE(found.points.size() == count);
+  std::vector<Point> chosen = {elbow.points[0]};
+  for (std::size_t n = 1; n < count; ++n) {
+    double farthest = 0;
+    for (const Point& p : elbow.points)
+      farthest = std::max(farthest, nearest(p, chosen, inside_elbow));
+    CHECK(found.distance[n] == Approx(farthest).epsilon(1e-9));
+    const Point& at = elbow.points[found.points[n].vertex];
+    CHECK(nearest(at, chosen, inside_elbow) == Approx(farthest).epsilon(1e-9));
+    chosen.push_back(at);
+  }
 }
 
 TEST_CASE("farthest points cost far less than a propagation each") {
@@ -104,30 +123,43 @@ TEST_CASE("a matrix of parts apart says inf and never nan") {
   CHECK_THROWS_AS(distance_matrix(Serial{}, mesh, {}), UsageError);
 }
 
-TEST_CASE(
-    "no points are spread over a solid with a crack, but those that are given have a matrix") {
+TEST_CASE("points in a solid with a crack keep apart around it") {
   const testing::Cracked cracked(testing::one_slit, 0.16, 3, 0.3);
   const TetMesh<double> solid(cracked.places, cracked.tets);
   REQUIRE(solid.has_crack());
   std::vector<PointSource> start;
   for (Index v = 0; v < cracked.floor(); ++v)
     if (cracked.on_lip[v] != 0) start.push_back(PointSource::at(v));
-  const std::string sentence = Support(Refusal::samples_crack).sentence();
-  CHECK_THROWS_WITH(farthest_points(Serial{}, solid, start, {.count = 3}), sentence);
-  CHECK_THROWS_WITH(poisson_disks(Serial{}, solid, {.radius = .2}), sentence);
-  CHECK_THROWS_WITH(centroidal_voronoi(Serial{}, solid, start, {.max_iterations = 1}), sentence);
-  CHECK_THROWS_WITH(distance_matrix(Serial{}, solid, start, {}, Accuracy::fast()), sentence);
-  const DistanceMatrix matrix = distance_matrix(Serial{}, solid, start);
-  CHECK(matrix.accuracy == Accuracy::accurate());
-  std::size_t behind = 0;
-  for (std::size_t i = 0; i < start.size(); ++i) {
-    const auto exact = cracked.exact(cracked.beside[start[i].vertex]);
-    for (std::size_t j = 0; j < start.size(); ++j) {
-      CHECK(matrix(i, j) == Approx(i == j ? 0 : exact[start[j].vertex]).epsilon(1e-6).margin(1e-8));
-      behind += i != j && cracked.places[start[i].vertex] == cracked.places[start[j].vertex];
-    }
-  }
-  CHECK(behind > 4);
+  std::vector<std::vector<double>> exact;  // from each of these
+  for (const PointSource& s : start) exact.push_back(cracked.exact(cracked.beside[s.vertex]));
+  const auto check = [&](const DistanceMatrix& matrix) {
+    CHECK(matrix.accuracy == Accuracy::accurate());
+    std::size_t behind = 0;
+    for (std::size_t i = 0; i < start.size(); ++i)
+      for (std::size_t j = 0; j < start.size(); ++j) {
+        CHECK(matrix(i, j) ==
+              Approx(i == j ? 0 : exact[i][start[j].vertex]).epsilon(1e-6).margin(1e-8));
+        behind += i != j && cracked.places[start[i].vertex] == cracked.places[start[j].vertex];
+      }
+    CHECK(behind > 4);
+  };
+  check(distance_matrix(Serial{}, solid, start));
+  check(distance_matrix(Serial{}, solid, start, {}, Accuracy::fast()));
+
+  const std::vector<PointSource> one = {start[0]};
+  const FarthestPoints found = farthest_points(Serial{}, solid, one, {.count = 2});
+  CHECK(found.distance[1] ==
+        Approx(*std::max_element(exact[0].begin(), exact[0].end())).epsilon(1e-9));
+
+  const auto cells = centroidal_voronoi(Serial{}, solid, start, {.max_iterations = 0});
+  double content = 0;
+  for (const double part : cells.cell_content) content += part;
+  CHECK(content == Approx(.3).epsilon(1e-9));  // of the unit square, so high
+
+  const PoissonDisks disks = poisson_disks(Serial{}, solid, {.radius = .3});
+  const DistanceMatrix apart = distance_matrix(Serial{}, solid, disks.darts);
+  for (std::size_t i = 0; i < apart.size; ++i)
+    for (std::size_t j = 0; j < i; ++j) CHECK(apart(i, j) >= .3 * (1 - 1e-3));
 }
 
 }  // namespace plexway::farthest_points_test

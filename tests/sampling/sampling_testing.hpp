@@ -47,6 +47,14 @@ std::vector<Point> positions(const std::vector<PointSource>& darts,
 inline double euclid(const Point& a, const Point& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
+/// In samples::elbow_solid: around the edge x = y = 1 where the straight line leaves the L.
+inline double inside_elbow(const Point& a, const Point& b) {
+  const double side_a = a[0] - 1, up_a = a[1] - 1, side_b = b[0] - 1, up_b = b[1] - 1;
+  const bool opposite = (side_a > 0 && up_b > 0) || (up_a > 0 && side_b > 0);
+  const double turn = side_a * up_b - up_a * side_b;
+  if (!(opposite && (side_a > 0 ? turn > 0 : turn < 0))) return euclid(a, b);
+  return std::hypot(std::hypot(side_a, up_a) + std::hypot(side_b, up_b), a[2] - b[2]);
+}
 /// On the unit sphere.
 inline double great_circle(const Point& a, const Point& b) {
   return 2 * std::asin(std::min(1., euclid(samples::unit(a), samples::unit(b)) / 2));

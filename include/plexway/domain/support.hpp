@@ -58,9 +58,6 @@ namespace plexway {
     "an edge")                                                                                     \
   X(search_visibility, "searches that end early know the default visibility only: saddles")        \
   X(samples_domain, "points are chosen on surfaces, solids and clouds: make one of these")         \
-  X(samples_crack,                                                                                 \
-    "points that are spread over a solid with a crack would be seen through it: move the two "     \
-    "sides of the crack apart")                                                                    \
   X(samples_lengths,                                                                               \
     "points are chosen in solids that have coordinates: build the solid with them")                \
   X(isolines_domain,                                                                               \

@@ -98,25 +98,6 @@ class SolidPropagation {
     return Expander<Other>{*this, rule_.on(front), last_resort};
   }
 
-  /// The same where labels of earlier propagations stay: looks for what to repair only around those
-  /// that changed. `changed` lists them, some repeatedly, and grows meanwhile; it is `complete` or,
-  /// when too much changed, not.
-  template <class Changed>
-  void run_around(const Changed& changed) {
-    std::size_t looked_at = 0;
-    for (bool again = true; again;) {
-      spread(false);
-      if (front_.out_of_budget()) return;
-      again = pass_pinches();
-      if (!rule_.drops()) continue;
-      const std::size_t before = front_.updates();
-      for (const std::size_t end = changed.size(); looked_at < end && changed.complete();)
-        repair_around(changed[looked_at++]);
-      if (!changed.complete()) return run();
-      again |= front_.updates() != before;
-    }
-  }
-
   [[nodiscard]] Rule& rule() { return rule_; }
   [[nodiscard]] const Rule& rule() const { return rule_; }
 

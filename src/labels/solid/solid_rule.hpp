@@ -20,7 +20,7 @@ inline constexpr Index tet_face_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}
 
 #include "kernel/text_begin.inl"
 
-/// The rule of mixed domains and samples in solids in space: a label is a string from a point
+/// The rule of solids in mixed domains where strings do not go: a label is a string from a point
 /// around reflex edges, which are the only places where paths bend, and is walked through the
 /// tetrahedra before it counts.
 template <class Real, class Front>
@@ -208,32 +208,13 @@ class SolidRule : public SolidPaths<Real> {
     }
     if (by != none) offer(by, best);
   }
-  /// The same to any point of u: t, or one that touches it.
-  [[nodiscard]] Real distance_at(Index t, Index u, const Point& q,
-                                 Real known = std::numeric_limits<Real>::infinity()) const {
-    return reach_at(front_->label(t), t, common_point(t, u), u, q, known, nowhere());
-  }
-
-  /// Length of the path from the source of t through a face to that of the neighbour; +inf if none
-  /// passes there.
-  [[nodiscard]] Real meeting_over(Index t, Index face) const {
-    const Index u = tets_[t].across[face] >> TetAcross::tet_shift;
-    const Index* order = tet_face_corners[face];
-    const Point &a = points_[tets_[t].corner[order[0]]], &b = points_[tets_[t].corner[order[1]]],
-                &c = points_[tets_[t].corner[order[2]]];
-    const Point middle = face_middle(t, face);
-    const Point here = seen_over(t, middle, u).eye, there = seen_over(u, middle, t).eye;
-    if (!passes(here, there, a, b, c, face_tolerance)) return std::numeric_limits<Real>::infinity();
-    const Point q = plane_crossing(here, there, a, b, c);
-    return distance_at(t, t, q) + distance_at(u, u, q);
-  }
-
   /// Labels of u offer a path over the edge (v, w) of t, which touches u in that edge only.
   bool pass_edge(Index u, Index t, Index v, Index w, Real known_gain) const {
     const Point q = tets_[t].centre;
     const Point b = bend_point(points_[v], points_[w], seen_from(u, tets_[u].centre).eye, q);
-    const Real walked = distance_at(u, u, b);
-    if (!(walked < std::numeric_limits<Real>::infinity())) return false;
+    constexpr Real infinity = std::numeric_limits<Real>::infinity();
+    const Real walked = reach_at(front_->label(u), u, tets_[u].centre, u, b, infinity, nowhere());
+    if (!(walked < infinity)) return false;
     Label label = point_label(t, b, walked);
     label.centre = label.sigma + norm(q - b);
     if (!(label.centre < to_beat(t) * known_gain)) return false;
@@ -283,18 +264,6 @@ class SolidRule : public SolidPaths<Real> {
   [[nodiscard]] Sight last_bend(const Taut& s) const {
     return {s.at[s.bends], s.extent - norm(taut_end(s) - s.at[s.bends])};
   }
-  /// A point that t has with u, which touches it: the middle of their common corners.
-  [[nodiscard]] Point common_point(Index t, Index u) const {
-    Point sum = {0, 0, 0};
-    Real count = 0;
-    for (const Index v : tets_[t].corner)
-      if (std::find(tets_[u].corner, tets_[u].corner + 4, v) != tets_[u].corner + 4) {
-        sum = sum + points_[v];
-        ++count;
-      }
-    return t == u || count == 0 ? tets_[t].centre : Real(1) / count * sum;
-  }
-
   bool enter(Index t, std::size_t face, const Label& label, Index source) const {
     if (!(label.centre < to_beat(t))) return false;
     front_->accept(t, face, label, label.centre, source);

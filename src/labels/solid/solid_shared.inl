@@ -22,10 +22,6 @@ struct Sight {
   if (find_sight(t, tets_[t].centre, t, within(t, q), q, s)) return last_bend(s);
   return {tets_[t].centre, front_->label(t).centre};
 }
-/// The same on the way to the centre of a neighbour over the face with that middle.
-[[nodiscard]] Sight seen_over(Index t, const Point& middle, Index u) const {
-  return sight(t, middle, u, tets_[u].centre, tets_[u].centre);
-}
 /// Is corner i of u in a straight line from a point of t? (On a crack another may lie there.)
 [[nodiscard]] bool sees(Index t, const Point& from, Index u, Index i) const {
   const Index v = tets_[u].corner[i];

@@ -31,18 +31,3 @@ struct SolidSight {
 #include "kernel/text_end.inl"
 
 }  // namespace plexway::kernel
-
-namespace plexway {
-
-/// Where the segment from `eye` to q crosses the plane of a, b, c, or the end nearest to it.
-template <class Real>
-Vector3<Real> plane_crossing(const Vector3<Real>& eye, const Vector3<Real>& q,
-                             const Vector3<Real>& a, const Vector3<Real>& b,
-                             const Vector3<Real>& c) {
-  const Vector3<Real> normal = cross(b - a, c - a);
-  const Real from = dot(normal, eye - a), to = dot(normal, q - a);
-  const Real share = from == to ? Real(0.5) : kernel::clamp(from / (from - to), Real(0), Real(1));
-  return eye + share * (q - eye);
-}
-
-}  // namespace plexway
