@@ -2,7 +2,7 @@
 
 #include <sys/resource.h>
 
-#include "executors/threads/piece_post.hpp"
+#include "executors/threads/rank_mail.hpp"
 
 namespace plexway {
 

@@ -18,9 +18,8 @@
 #include <plexway/shape/support.hpp>
 #include <plexway/support.hpp>
 
-#include "executors/parts/same_rows.hpp"
 #include "executors/same_work.hpp"
-#include "executors/threads/piece_post.hpp"
+#include "executors/threads/rank_mail.hpp"
 #include "shape/arguments/point_argument.hpp"
 #include "shape/arguments/require.hpp"
 #include "shape/arguments/source_argument.hpp"
