@@ -50,12 +50,16 @@ class CMakeBuild(build_ext):
             launcher = ["env", f"CCACHE_BASEDIR={ROOT}", "CCACHE_NOHASHDIR=1", "ccache"]
             options.append("-DCMAKE_CXX_COMPILER_LAUNCHER=" + ";".join(launcher))
         options += os.environ.get("PLEXWAY_CMAKE_ARGS", "").split()
-        run("cmake", "-S", ROOT, "-B", folder, *options)
+        command = ["cmake", "-S", ROOT, "-B", folder, *options]
+        answer = subprocess.run(map(str, command), check=True, stdout=subprocess.PIPE, text=True)
+        print(answer.stdout)
+        return re.findall("^-- plexway: (.* left out: .*)$", answer.stdout, re.M)
 
     def build_extension(self, extension):
         folder = Path(os.environ.get("PLEXWAY_BUILD", self.build_temp)).resolve()
+        without = []
         if not (folder / "CMakeCache.txt").exists():
-            self.configure(folder)
+            without = self.configure(folder)
         jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
         run("cmake", "--build", folder, "--parallel", jobs, "--target", "plexway_python")
 
@@ -69,6 +73,8 @@ class CMakeBuild(build_ext):
             raise SystemExit(f"{folder} holds no {name}: it was configured for another Python")
         package = Path(self.get_ext_fullpath(extension.name)).resolve().parent
         shutil.copytree(made[0].parent, package, dirs_exist_ok=True)
+        for what in without:  # last, where one who asks (pip install -v) sees it
+            print("plexway:", what)
 
 
 SCRATCH.mkdir(parents=True, exist_ok=True)

@@ -1,9 +1,12 @@
-# tests/fuzz/fuzz_<format>.cpp holds one fuzzed function, tests/fuzz/corpus/<format> its seeds. One
-# program, test_fuzz, replays the seeds as tests; with PLEXWAY_FUZZ each function is a program of its
-# own besides, by libFuzzer.
+# tests/fuzz/fuzz_<format>.cpp holds one fuzzed function, fuzz_readers.cpp those of the readers,
+# tests/fuzz/corpus/<format> has their seeds. One program, test_fuzz, replays the seeds as tests; with
+# PLEXWAY_FUZZ each function is a program of its own besides, by libFuzzer.
 set(fuzz_dir "${PROJECT_SOURCE_DIR}/tests/fuzz")
 file(GLOB fuzzers CONFIGURE_DEPENDS RELATIVE "${fuzz_dir}" "${fuzz_dir}/fuzz_*.cpp")
 list(TRANSFORM fuzzers REPLACE "^fuzz_(.*)\\.cpp$" "\\1")
+list(REMOVE_ITEM fuzzers readers)
+file(STRINGS "${fuzz_dir}/fuzz_readers.cpp" fuzz_readers REGEX "^PLEXWAY_FUZZER")
+list(TRANSFORM fuzz_readers REPLACE "^PLEXWAY_FUZZER\\(([a-z_]+)\\).*" "\\1")
 if(NOT TARGET plexway_cli)
   list(REMOVE_ITEM fuzzers arguments)
 endif()
@@ -13,7 +16,18 @@ endif()
 
 # Adds the function of a format to a program, with what it reads by.
 function(plexway_add_fuzzer target format)
-  target_sources(${target} PRIVATE "${fuzz_dir}/fuzz_${format}.cpp")
+  if(NOT format IN_LIST fuzz_readers)
+    target_sources(${target} PRIVATE "${fuzz_dir}/fuzz_${format}.cpp")
+  elseif(NOT TARGET plexway_fuzz_readers)
+    add_library(plexway_fuzz_readers OBJECT "${fuzz_dir}/fuzz_readers.cpp")
+    plexway_compile_options(plexway_fuzz_readers)
+    target_include_directories(plexway_fuzz_readers PRIVATE "${fuzz_dir}" "${PROJECT_SOURCE_DIR}/src"
+      "${PROJECT_SOURCE_DIR}")
+    target_link_libraries(plexway_fuzz_readers PUBLIC plexway::core plexway::io)
+  endif()
+  if(format IN_LIST fuzz_readers)
+    target_link_libraries(${target} PRIVATE plexway_fuzz_readers)
+  endif()
   target_include_directories(${target} PRIVATE "${fuzz_dir}" "${PROJECT_SOURCE_DIR}/src"
     "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${target} PRIVATE plexway::core plexway::io)
@@ -60,7 +74,7 @@ endfunction()
 if(PLEXWAY_BUILD_TESTS)
   add_executable(test_fuzz "${fuzz_dir}/replay_main.cpp")
   plexway_test_options(test_fuzz)
-  foreach(format IN LISTS fuzzers)
+  foreach(format IN LISTS fuzzers fuzz_readers)
     plexway_add_fuzzer(test_fuzz ${format})
     add_test(NAME "fuzz/corpus ${format}"
       COMMAND test_fuzz ${format} "${fuzz_dir}/corpus/${format}")
@@ -72,12 +86,12 @@ if(PLEXWAY_BUILD_TESTS)
 endif()
 
 if(PLEXWAY_FUZZ)
-  set(fuzz_programs ${fuzzers})
+  set(fuzz_programs ${fuzzers} ${fuzz_readers})
   list(TRANSFORM fuzz_programs PREPEND fuzz_)
-  foreach(format IN LISTS fuzzers)
-    add_executable(fuzz_${format})
+  foreach(format IN LISTS fuzzers fuzz_readers)
+    add_executable(fuzz_${format} "${fuzz_dir}/replay_main.cpp")
     plexway_compile_options(fuzz_${format})
-    target_compile_definitions(fuzz_${format} PRIVATE PLEXWAY_LIBFUZZER=1)
+    target_compile_definitions(fuzz_${format} PRIVATE PLEXWAY_LIBFUZZER="${format}")
     target_link_options(fuzz_${format} PRIVATE -fsanitize=fuzzer)
     plexway_add_fuzzer(fuzz_${format} ${format})
   endforeach()

@@ -15,9 +15,9 @@
 #include "complexes/cloud/umbrella.hpp"
 #include "complexes/cloud/umbrella_sheet.hpp"
 #include "complexes/common/fill_rows.hpp"
-#include "complexes/common/near_twins.hpp"
-#include "complexes/surface/boundary_saddles.hpp"
+#include "complexes/common/nearby.hpp"
 #include "complexes/surface/gluing.hpp"
+#include "complexes/surface/saddle_vertices.hpp"
 
 namespace plexway {
 namespace {

@@ -10,7 +10,7 @@
 #include <plexway/error.hpp>
 
 #include "complexes/common/disjoint_sets.hpp"
-#include "complexes/common/near_twins.hpp"
+#include "complexes/common/nearby.hpp"
 #include "complexes/common/simplex_order.hpp"
 
 namespace plexway {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include <plexway/cloud/neighbours.hpp>
 #include <plexway/common/ids.hpp>
 
 namespace plexway {
@@ -13,5 +14,10 @@ namespace plexway {
 std::vector<std::array<Index, 2>> nearby_pairs(std::span<const std::array<double, 3>> a,
                                                std::span<const std::array<double, 3>> b,
                                                double tolerance);
+
+/// May without_near_twins find any? Of points of which no two are at one place; for those that lie
+/// beside their neighbours in memory it is much quicker.
+[[nodiscard]] bool may_have_near_twins(std::span<const std::array<double, 3>> points,
+                                       const Neighbours& neighbours);
 
 }  // namespace plexway

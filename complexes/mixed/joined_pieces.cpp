@@ -9,8 +9,6 @@
 #include <plexway/error.hpp>
 
 #include "complexes/common/disjoint_sets.hpp"
-#include "complexes/mixed/joined_solids.hpp"
-#include "complexes/mixed/joined_surfaces.hpp"
 
 namespace plexway {
 namespace {

@@ -1,9 +1,16 @@
 #pragma once
 
+#include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <plexway/mixed/mixed_complex.hpp>
+#include <plexway/solid/tet_mesh.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
+
+#include "complexes/common/point3.hpp"
+#include "complexes/solid/shared_faces.hpp"
 
 namespace plexway {
 
@@ -25,5 +32,49 @@ struct JoinedPieces {
 
 extern template struct JoinedPieces<float>;
 extern template struct JoinedPieces<double>;
+
+/// Where a solid lies in the frame of another one: turned, moved, and perhaps mirrored, for what
+/// counts is lengths.
+struct Placing {
+  std::array<Point3, 3> turn = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  Point3 move = {0, 0, 0};
+  [[nodiscard]] Point3 operator()(const Point3& p) const {
+    return {dot(turn[0], p) + move[0], dot(turn[1], p) + move[1], dot(turn[2], p) + move[2]};
+  }
+};
+
+/// So that the triangle `at` comes to lie on `onto`, with `inside` and `onto_inside`, points off
+/// their planes, on either side of it. Moves nothing if all is so already, within `tolerance`.
+Placing place_onto(const std::array<Point3, 3>& at, const Point3& inside,
+                   const std::array<Point3, 3>& onto, const Point3& onto_inside, double tolerance);
+
+/// A solid's vertices in the caller's order and unit: the positions it was given with, if they are
+/// those that it has.
+template <class Real>
+std::vector<Point3> places_of(const TetMesh<Real>& mesh, std::span<const Point3> given);
+
+/// Its tetrahedra, in the caller's order.
+template <class Real>
+std::vector<std::array<Index, 4>> tets_of(const TetMesh<Real>& mesh);
+
+/// Surfaces to become one: their vertices' numbers in it, in the caller's order of each.
+template <class Real>
+struct JoinedPart {
+  const TriangleMesh<Real>* mesh;
+  std::span<const Index> vertex;
+};
+
+/// Edges that two of them have.
+struct SurfaceSeam {
+  Index part[2];
+  SharedFaces shared;
+};
+
+/// One surface of `vertices` vertices, glued along what its parts share. Triangles keep their
+/// lengths and angles, faces the order of parts. Where lengths of an edge differ by more than 1e-6
+/// paths are refracted.
+template <class Real>
+TriangleMesh<Real> join_surfaces(std::size_t vertices, std::span<const JoinedPart<Real>> parts,
+                                 std::span<const SurfaceSeam> seams);
 
 }  // namespace plexway

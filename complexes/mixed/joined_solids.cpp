@@ -1,4 +1,4 @@
-#include "complexes/mixed/joined_solids.hpp"
+#include "complexes/mixed/joined_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>

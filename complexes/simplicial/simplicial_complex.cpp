@@ -13,7 +13,6 @@
 #include "complexes/common/disjoint_sets.hpp"
 #include "complexes/common/fill_rows.hpp"
 #include "complexes/common/number_range.hpp"
-#include "complexes/common/one_length.hpp"
 #include "complexes/common/simplex_gluing.hpp"
 #include "complexes/simplicial/simplex_flat.hpp"
 #include "complexes/simplicial/simplex_shape.hpp"

@@ -8,7 +8,7 @@
 #include <plexway/common/ids.hpp>
 #include <plexway/solid/detail/tet_record.hpp>
 
-#include "complexes/solid/tet_corners.hpp"
+#include "complexes/solid/tet_gluing.hpp"
 
 namespace plexway {
 

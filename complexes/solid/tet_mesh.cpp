@@ -11,7 +11,7 @@
 
 #include "complexes/common/building_blocks.hpp"
 #include "complexes/common/number_range.hpp"
-#include "complexes/common/one_length.hpp"
+#include "complexes/common/simplex_gluing.hpp"
 #include "complexes/common/simplex_order.hpp"
 #include "complexes/solid/tet_edges.hpp"
 #include "complexes/solid/tet_gluing.hpp"

@@ -6,7 +6,7 @@
 
 #include <plexway/surface/detail/triangle_record.hpp>
 
-#include "complexes/surface/edge_matching.hpp"
+#include "complexes/surface/gluing.hpp"
 #include "complexes/surface/shape_blocks.hpp"
 
 namespace plexway {

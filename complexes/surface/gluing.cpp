@@ -5,8 +5,6 @@
 
 #include <plexway/error.hpp>
 
-#include "complexes/surface/edge_matching.hpp"
-
 namespace plexway {
 namespace {
 

@@ -13,7 +13,7 @@
 #include "complexes/common/building_blocks.hpp"
 #include "complexes/common/fill_rows.hpp"
 #include "complexes/common/number_range.hpp"
-#include "complexes/common/one_length.hpp"
+#include "complexes/common/simplex_gluing.hpp"
 #include "complexes/common/simplex_order.hpp"
 #include "complexes/surface/face_layout.hpp"
 #include "complexes/surface/gluing.hpp"

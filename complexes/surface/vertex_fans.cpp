@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "complexes/common/components.hpp"
 #include "complexes/common/disjoint_sets.hpp"
 #include "complexes/surface/face_layout.hpp"
 

@@ -41,7 +41,7 @@ using AnyExecutor = std::variant<Serial, OpenMP, GL>;
 /// How a shape becomes a domain.
 struct BuildOptions {
   /// The precision of its fields.
-  Precision precision = Precision::single;
+  Precision precision = Precision::float32;
   /// Of surfaces.
   Triangulation triangulation = Triangulation::automatic;
   /// What its edges cost, by AnyShape::measure; null: their lengths in space, or those given.

@@ -148,7 +148,7 @@ void take_vertices(std::span<const Index> vertices, std::vector<Number>& values)
 
 /// ONE field, as `solve` has it on any domain, with the same errors. Cost: a solve on the carrier.
 template <ExecutorType E, CarriedDomainType D>
-requires GoTogether<E, D>
+requires ExecutorSolves<E, D>
 void solve(const E& executor, const D& domain, const SourceList& sources,
            const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
            DistanceField<RealOf<D>>& field) {
@@ -162,7 +162,7 @@ void solve(const E& executor, const D& domain, const SourceList& sources,
 
 /// K fields, one *to each* of K sources, as `solve_each` has them on any domain.
 template <ExecutorType E, CarriedDomainType D>
-requires GoTogether<E, D>
+requires ExecutorSolves<E, D>
 bool solve_each(const E& executor, const D& domain, const SourceList& sources,
                 const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
                 std::span<RealOf<D>> distance) {

@@ -48,10 +48,10 @@ constexpr bool check() {
 
 }  // namespace detail
 
-/// Do executor and domain go together? Where types alone say that they do not, asking is an error
-/// of the compiler, which says why; `supports` (support.hpp) answers instead.
+/// Does an executor solve a domain? Where types alone say that it does not, asking is an error of
+/// the compiler, which says why; `supports` (support.hpp) answers instead.
 template <class E, class D>
-concept GoTogether = detail::check<support(combination<E, D>()).refusal()>();
+concept ExecutorSolves = detail::check<support(combination<E, D>()).refusal()>();
 
 /// ONE field: the distance of every vertex from the *nearest* of `sources`, and which one that is,
 /// by its place in the list.
@@ -71,7 +71,7 @@ concept GoTogether = detail::check<support(combination<E, D>()).refusal()>();
 //
 // Both verbs are compiled in the library (src/executors/run.hpp).
 template <ExecutorType E, DomainType D>
-requires GoTogether<E, D>
+requires ExecutorSolves<E, D>
 void solve(const E& executor, const D& domain, const SourceList& sources,
            const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
            DistanceField<RealOf<D>>& field);
@@ -99,7 +99,7 @@ template <ExecutorType E, DomainType D>
 /// tetrahedron, and 12 a vertex). Its progress is that of the source which the calling thread is
 /// at; Cancelled ends all. Throws as `solve`, and UsageError for a `distance` of another size.
 template <ExecutorType E, DomainType D>
-requires GoTogether<E, D>
+requires ExecutorSolves<E, D>
 bool solve_each(const E& executor, const D& domain, const SourceList& sources,
                 const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
                 std::span<RealOf<D>> distance);
@@ -124,6 +124,47 @@ auto solve(const E& executor, const D& domain, const SourceList& sources, const 
                     combination<E, D>(SourceKind::vertex, Visibility::saddles, Schedule::priority))
                     .refusal()>();
   return solve(executor, domain, sources, static_cast<const PropagateOptions&>(options), rest...);
+}
+
+// What neither verb takes: an error of the compiler, in one sentence.
+
+namespace detail {
+
+template <class E, class D, class Sources>
+constexpr void explain_call() {
+  constexpr bool swapped = DomainType<E> && ExecutorType<D>;
+  static_assert(!swapped,
+                "solve takes the executor first, then the domain: solve(Serial{}, mesh, 0)");
+  static_assert(swapped || DomainType<D>,
+                "the second argument is no domain: TriangleMesh, TetMesh, Wireframe, PointCloud, "
+                "SimplicialComplex, MixedComplex, or one of your own that derives from "
+                "CarriedDomain; an AnyDomain has members of these names");
+  static_assert(swapped || !DomainType<D> || std::convertible_to<const Sources&, SourceList>,
+                "sources are vertices by number, PointSource, VertexSource and the like; of a "
+                "position in space the source is closest(positions, triangles, point)");
+}
+
+template <class E, class D, class Sources>
+concept WrongCall = (ExecutorType<E> &&
+                     !(DomainType<D> && std::convertible_to<const Sources&, SourceList>)) ||
+                    (DomainType<E> && ExecutorType<D>);
+
+}  // namespace detail
+
+/// Does not compile, and says why.
+template <class E, class D, class Sources, class... Rest>
+requires detail::WrongCall<E, D, Sources> DistanceField<float> solve(const E&, const D&,
+                                                                     const Sources&,
+                                                                     const Rest&...) {
+  detail::explain_call<E, D, Sources>();
+  return {};
+}
+
+/// Does not compile: the executor is missing.
+template <DomainType D, class Sources>
+DistanceField<float> solve(const D&, const Sources&) {
+  static_assert(!DomainType<D>, "the executor is missing: solve(Serial{}, domain, sources)");
+  return {};
 }
 
 }  // namespace plexway

@@ -147,7 +147,7 @@ std::shared_ptr<Domain> build(AnyShape shape, const BuildArguments& arguments) {
   BuildOptions options;
   options.precision =
       named<Precision>("precision", arguments.precision,
-                       {{"single", Precision::single}, {"double", Precision::twice}});
+                       {{"single", Precision::float32}, {"double", Precision::float64}});
   options.triangulation = named<Triangulation>("triangulation", arguments.triangulation,
                                                {{"auto", Triangulation::automatic},
                                                 {"input", Triangulation::input},

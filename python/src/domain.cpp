@@ -30,7 +30,7 @@ const AnyDomain& Domain::for_sources(const AnyExecutor& executor, const SourceLi
   const std::scoped_lock lock(mutex_);
   if (!twice_) {
     BuildOptions twice = options_;
-    twice.precision = Precision::twice;
+    twice.precision = Precision::float64;
     twice_ = std::make_unique<const AnyDomain>(shape(), twice);
   }
   return *twice_;
@@ -240,7 +240,7 @@ void bind_domain(py::module_& module) {
       .def_property_readonly("refracting_edges",
                              [](const Domain& d) { return d.any().refracting_edges(); })
       .def_property_readonly(
-          "double", [](const Domain& d) { return d.any().precision() == Precision::twice; })
+          "double", [](const Domain& d) { return d.any().precision() == Precision::float64; })
       .def_property_readonly("file", [](const Domain& d) { return d.shape().file().string(); })
       .def_property_readonly("triangulation",
                              [](const Domain& d) {

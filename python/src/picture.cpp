@@ -13,7 +13,7 @@
 
 #include "arrays.hpp"
 #include "domain.hpp"
-#include "shape/shape_page.hpp"
+#include "shape/scene.hpp"
 
 #ifdef PLEXWAY_HAS_RENDER
 #include <plexway/render/picture.hpp>

@@ -15,7 +15,7 @@
 #include <plexway/solve/distance_field.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "complexes/mixed/joined_solids.hpp"
+#include "complexes/mixed/joined_pieces.hpp"
 #include "labels/straight_lines.hpp"
 
 namespace plexway {

@@ -102,7 +102,7 @@ void run_parts(const E& executor, const D& domain, std::span<const Source> sourc
 }  // namespace detail
 
 template <ExecutorType E, DomainType D>
-requires GoTogether<E, D>
+requires ExecutorSolves<E, D>
 void solve(const E& executor, const D& domain, const SourceList& sources,
            const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
            DistanceField<RealOf<D>>& field) {
@@ -165,7 +165,7 @@ bool run_rows_at_once(const OpenMP& executor, const D& domain, const SourceList&
 }  // namespace detail
 
 template <ExecutorType E, DomainType D>
-requires GoTogether<E, D>
+requires ExecutorSolves<E, D>
 bool solve_each(const E& executor, const D& domain, const SourceList& sources,
                 const PropagateOptions& options, WorkspaceOf<E, D>& workspace,
                 std::span<RealOf<D>> distance) {

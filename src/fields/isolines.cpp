@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "fields/level_sets.hpp"
-#include "paths/cloud_sheet.hpp"
+#include "paths/cloud_points.hpp"
 
 namespace plexway {
 namespace {

@@ -5,15 +5,41 @@
 #include <optional>
 #include <string>
 
-#include "file/unfinished.hpp"
-
 namespace plexway::file {
+
+/// A temporary file that whoever ends this process by a signal should see removed. A list for the
+/// whole process, of 64 at most; what does not fit is not on it.
+class Unfinished {
+ public:
+  explicit Unfinished(const char* path);
+  ~Unfinished();
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+
+ private:
+  std::size_t place_;
+};
+
+/// Removes all files of the list. May be called by a handler of signals.
+void remove_unfinished() noexcept;
+
+/// Holds signals that end a process back while it lives, in this thread.
+class SignalsHeld {
+ public:
+  SignalsHeld();
+  ~SignalsHeld();
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+ private:
+  unsigned char before_[128];
+};
 
 /// A file that appears whole or not at all.
 ///
 /// Where the system has files without a name it is one until `commit`, so nothing stays behind
 /// whatever ends the process; elsewhere it is NAME.plexway-partN, which whoever writes NAME next
-/// removes after a kill, and on the list of `unfinished.hpp`. Links stay links, their ends there or
+/// removes after a kill, and on the list of unfinished files. Links stay links, their ends there or
 /// not. A file that is replaced gives mode and owner to the new one; one that may not be written
 /// is not. A target that exists and is no regular file (a pipe, a device) is written directly,
 /// and so is standard output, by the name that `standard_output.hpp` gives it. All but `write`

@@ -134,9 +134,8 @@ constexpr Row table[] = {
      begins<gmsh_sign>},
     {{".vtu .vtp", "VTK's XML, grids and polygons", FileReader::cells, any,
       "ascii, base64, appended raw and base64; either byte order; any number types; several "
-      "pieces; "
-      "compressed by zlib; cells of any order",
-      "fields; LZ4 and LZMA are refused"},
+      "pieces; compressed by zlib, LZ4 or LZMA; cells of any order",
+      "fields"},
      parse_vtu_cells,
      nullptr,
      has_early<vtk_tag>},

@@ -17,23 +17,22 @@ namespace {
 template <std::size_t Corners>
 constexpr std::size_t edges_of = Corners*(Corners - 1) / 2;
 
-// The corners of each edge, in the order that the complex of that dimension takes.
+// The corners of each edge, in the order that the complex of that dimension takes, and its name.
 template <std::size_t Corners>
 struct Ends;
 template <>
 struct Ends<2> {
-  static constexpr std::array<std::size_t, 2> of[] = {{0, 1}};
+  static constexpr auto of = simplex_edges<2>;
   static constexpr std::string_view simplex = "edge";
 };
 template <>
 struct Ends<3> {
-  static constexpr std::array<std::size_t, 2> of[] = {{0, 1}, {1, 2}, {2, 0}};
+  static constexpr auto of = triangle_edges;
   static constexpr std::string_view simplex = "triangle";
 };
 template <>
 struct Ends<4> {
-  static constexpr std::array<std::size_t, 2> of[] = {{0, 1}, {0, 2}, {1, 2},
-                                                      {0, 3}, {1, 3}, {2, 3}};
+  static constexpr auto of = simplex_edges<4>;
   static constexpr std::string_view simplex = "tetrahedron";
 };
 

@@ -23,7 +23,7 @@
 
 #include <plexway/error.hpp>
 
-#include "file/unfinished.hpp"
+#include "file/new_file.hpp"
 #include "pairs/row_work.hpp"
 
 namespace plexway::mpi {

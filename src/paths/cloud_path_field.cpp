@@ -7,7 +7,6 @@
 #include <plexway/error.hpp>
 
 #include "paths/cloud_points.hpp"
-#include "paths/cloud_sheet.hpp"
 #include "paths/solved.hpp"
 #include "paths/surface_trace.hpp"
 

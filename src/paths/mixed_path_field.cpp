@@ -6,8 +6,11 @@
 #include <plexway/error.hpp>
 
 #include "executors/checks.hpp"
+#include "labels/workspace_state.hpp"
 #include "paths/cell_trace.hpp"
+#include "paths/media_paths.hpp"
 #include "paths/solved.hpp"
+#include "strings/mixed_strings.hpp"
 
 namespace plexway {
 namespace {
@@ -26,7 +29,8 @@ std::size_t corners_of(const MixedComplex<Real>& domain, Index simplex) {
 template <class Real>
 PathField<MixedComplex<Real>>::PathField(const MixedComplex<Real>& domain,
                                          std::span<const std::array<double, 3>> positions)
-    : domain_(&domain), positions_(positions), cells_(new ComplexCells<Real>(domain)) {
+    : domain_(&domain), positions_(positions) {
+  if (!MixedSpace::of(domain)->media) cells_ = std::make_unique<ComplexCells<Real>>(domain);
   if (!positions.empty() && positions.size() != domain.vertex_count())
     throw UsageError(std::to_string(positions.size()) + " positions for " +
                      std::to_string(domain.vertex_count()) +
@@ -44,9 +48,24 @@ PathField<MixedComplex<Real>>::~PathField() = default;
 template <class Real>
 void PathField<MixedComplex<Real>>::adopt(DistanceField<Real> found,
                                           std::span<const PointSource> sources) {
+  if (!cells_) {
+    auto& strings = workspace_.state().media;
+    if (!strings) strings = std::make_shared<MixedStrings>();
+    strings->solve(*domain_, MixedSpace::of(*domain_), sources, {}, field_);
+  }
   field_ = std::move(found);
+  took(sources);
+}
+
+template <class Real>
+void PathField<MixedComplex<Real>>::took(std::span<const PointSource> sources) {
   sources_.assign(sources.begin(), sources.end());
-  distance_ = cell_distances<Real>(*cells_, field_.distance);
+  const std::span<const Real> distance = field_.distance;
+  if (cells_)
+    distance_ = cell_distances<Real>(*cells_, distance);
+  else
+    paths_ = std::make_unique<MediaPaths>(*workspace_.state().media, distance,
+                                          std::span<const PointSource>(sources_), positions_);
   solved_ = true;
 }
 
@@ -66,18 +85,23 @@ Path PathField<MixedComplex<Real>>::trace(const PointSource& point,
                                           const TraceOptions& options) const {
   const PointSource at = checked(point);
   check(options, *domain_);
+  if (paths_) return paths_->trace(at);
   return trace_cells({*cells_, distance_, sources_, positions_}, at);
 }
 
 template <class Real>
 double PathField<MixedComplex<Real>>::at(const PointSource& point, ReadOut level) const {
-  return read_cells({*cells_, distance_, sources_, positions_}, checked(point), level);
+  const PointSource inside = checked(point);
+  if (paths_) return paths_->at(inside, level);
+  return read_cells({*cells_, distance_, sources_, positions_}, inside, level);
 }
 
 template <class Real>
 std::size_t PathField<MixedComplex<Real>>::bytes() const {
-  return cells_->bytes() + distance_.capacity() * sizeof(double) +
-         field_.distance.capacity() * sizeof(Real);
+  const auto& strings = workspace_.state().media;
+  return (cells_ ? cells_->bytes() : 0) + (paths_ ? paths_->bytes() : 0) +
+         (strings ? strings->bytes() : 0) + workspace_.bytes() +
+         distance_.capacity() * sizeof(double) + field_.distance.capacity() * sizeof(Real);
 }
 
 template class PathField<MixedComplex<float>>;

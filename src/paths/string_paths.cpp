@@ -31,12 +31,12 @@ Path StringPaths<Real>::trace(const PointSource& point) const {
   if (v == none) {
     const auto& corner = mesh_.tets()[t].corner;
     if (std::none_of(std::begin(corner), std::end(corner), reached)) return {};
-    return cut(strings_.at(mesh_, t, weight), {t});
+    return cut(strings_->at(mesh_, t, weight), {t});
   }
   if (!reached(v)) return {};
   std::vector<Index> around;
   for (const Index c : mesh_.corners_at(v)) around.push_back(c / 4);
-  return cut(strings_.at(v), std::move(around));
+  return cut(strings_->at(v), std::move(around));
 }
 
 template <class Real>
@@ -96,7 +96,7 @@ Path StringPaths<Real>::cut(const SolidStrings::Found& found, std::vector<Index>
 
 template <class Real>
 double StringPaths<Real>::at(Index t, const std::array<double, 4>& weight, ReadOut level) const {
-  if (level != ReadOut::linear) return strings_.at(mesh_, t, weight).distance;
+  if (level != ReadOut::linear) return strings_->at(mesh_, t, weight).distance;
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i)
     if (weight[i] > 0)  // other corners may be at infinity
@@ -107,7 +107,7 @@ double StringPaths<Real>::at(Index t, const std::array<double, 4>& weight, ReadO
 
 template <class Real>
 std::array<double, 3> StringPaths<Real>::gradient(Index t) const {
-  const SolidStrings::Found found = strings_.at(mesh_, t, centre);
+  const SolidStrings::Found found = strings_->at(mesh_, t, centre);
   const std::size_t n = found.points.size();
   if (n < 2) return {0, 0, 0};
   const Point away = strings::unit(found.points[n - 1] - found.points[n - 2]);
@@ -116,7 +116,7 @@ std::array<double, 3> StringPaths<Real>::gradient(Index t) const {
 
 template <class Real>
 Index StringPaths<Real>::source(Index t) const {
-  return strings_.at(mesh_, t, centre).source;
+  return strings_->at(mesh_, t, centre).source;
 }
 
 template class StringPaths<float>;

@@ -19,7 +19,7 @@ template <class Real>
 class StringPaths {
  public:
   StringPaths(const TetMesh<Real>& mesh, const Solved<Real>& solved)
-      : mesh_(mesh), solved_(solved), strings_(*solved.workspace.strings), walk_(mesh) {}
+      : mesh_(mesh), solved_(solved), strings_(solved.workspace.strings.get()), walk_(mesh) {}
 
   /// The way from a point back to its source, cut where it goes from tetrahedron to tetrahedron.
   /// Empty where none leads.
@@ -39,7 +39,7 @@ class StringPaths {
 
   const TetMesh<Real>& mesh_;
   const Solved<Real>& solved_;
-  const SolidStrings& strings_;
+  const SolidStrings* strings_;  // none where a field is only read between vertices
   SolidWalk<Real> walk_;
 };
 

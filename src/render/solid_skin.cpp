@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "complexes/solid/outer_faces.hpp"
+#include "complexes/solid/shared_faces.hpp"
 #include "skins.hpp"
 
 namespace plexway::render {

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include <plexway/error.hpp>
 #include <plexway/surface/smoothing.hpp>
 
 #include "io/extension.hpp"
-#include "shape/modules/pcl_functions.hpp"
+#include "shape/modules/module.hpp"
 
 #ifdef PLEXWAY_HAS_FLANN
 #include <plexway/flann/neighbours.hpp>

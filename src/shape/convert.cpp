@@ -13,10 +13,10 @@
 #include <plexway/shape/support.hpp>
 
 #include "io/extension.hpp"
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
+#include "shape/boundary.hpp"
 #include "shape/fill.hpp"
-#include "shape/modules/openvdb_functions.hpp"
-#include "shape/solid_boundary.hpp"
+#include "shape/modules/module.hpp"
 #include "shape/stopwatch.hpp"
 
 namespace plexway {

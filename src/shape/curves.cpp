@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <array>
 #include <map>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -9,8 +7,8 @@
 #include <plexway/shape/support.hpp>
 #include <plexway/solve.hpp>
 
+#include "shape/boundary.hpp"
 #include "shape/shape_state.hpp"
-#include "shape/warnings/walls.hpp"
 
 namespace plexway {
 namespace {
@@ -33,26 +31,6 @@ std::vector<PointSource> join(const Complex& complex, const Positions& positions
     curve.push_back(points[n]);
   }
   return curve;
-}
-
-// Vertices of faces that only one simplex has.
-template <std::size_t N>
-std::vector<Index> rim(const std::vector<std::array<std::uint32_t, N>>& simplices) {
-  std::map<std::array<std::uint32_t, N - 1>, int> faces;
-  for (const auto& simplex : simplices)
-    for (std::size_t skip = 0; skip < N; ++skip) {
-      std::array<std::uint32_t, N - 1> face;
-      for (std::size_t i = 0, k = 0; i < N; ++i)
-        if (i != skip) face[k++] = simplex[i];
-      std::sort(face.begin(), face.end());
-      ++faces[face];
-    }
-  std::vector<Index> vertices;
-  for (const auto& [face, count] : faces)
-    if (count == 1) vertices.insert(vertices.end(), face.begin(), face.end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
 }
 
 // Boundary edges as lines, each as long as it goes on.
@@ -103,10 +81,10 @@ Source AnyShape::boundary(double offset) const {
     return curve;
   }
   VertexSource source;
-  if (const auto* solid = std::get_if<io::Tets>(&data()))
-    source = lengths() == nullptr ? walls_of(*solid) : VertexSource{.vertices = rim(solid->tets)};
+  if (kind() == DomainKind::solid && lengths() == nullptr)
+    source = walls_of(std::get<io::Tets>(data()));
   else
-    source.vertices = rim(std::get<io::Edges>(data()).edges);
+    source.vertices = rim_vertices(state_->cells.front());
   source.offset = offset;
   if (source.vertices.empty()) throw nothing();
   return source;

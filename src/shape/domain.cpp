@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "executors/supported.hpp"
-#include "shape/collapsed.hpp"
 #include "shape/inside.hpp"
 #include "shape/kept_build.hpp"
 #include "shape/prepared.hpp"

@@ -8,7 +8,7 @@
 #include <plexway/shape/pairs.hpp>
 #include <plexway/version.hpp>
 
-#include "shape/exact_number.hpp"
+#include "shape/words.hpp"
 
 namespace plexway {
 namespace {
@@ -138,7 +138,7 @@ io::BlockJournal::Description description_of(const AnyShape& shape, const BuildO
                    (request.rows ? fingerprint_of(*request.rows) : "all")},
       {"columns", std::to_string(request.column_count(shape.vertices())) + " " +
                       fingerprint_of_numbers(request.columns)},
-      {"precision", building.precision == Precision::twice ? "double" : "float"},
+      {"precision", building.precision == Precision::float64 ? "double" : "float"},
       {"accuracy", text_of_value(solve.accuracy)},
       {"visibility", name_in(visibilities, solve.visibility)},
       {"schedule", name_in(schedules, solve.schedule) + " " + exact_number(solve.step)},

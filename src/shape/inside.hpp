@@ -1,11 +1,35 @@
 #pragma once
 
+#include <span>
+#include <variant>
 #include <vector>
 
+#include <plexway/shape/complex.hpp>
 #include <plexway/shape/open_simplices.hpp>
+#include <plexway/source/point_source.hpp>
 #include <plexway/source/source_list.hpp>
 
 namespace plexway {
+
+/// Calls point(p), vertex(v) and simplex(s) with all places that a source names, which may change
+/// them; points of simplices and balls have theirs in `point`.
+template <class Source, class Point, class Vertex, class Simplex>
+void each_place(Source& source, const Point& point, const Vertex& vertex, const Simplex& simplex) {
+  std::visit(
+      [&](auto& one) {
+        if constexpr (requires { one.barycentric; })
+          point(one);
+        else if constexpr (requires { one.centre; })
+          point(one.centre);
+        else if constexpr (requires { one.points; })
+          for (auto& at : one.points) point(at);
+        else if constexpr (requires { one.vertices; })
+          for (auto& v : one.vertices) vertex(v);
+        else
+          simplex(one.simplex);
+      },
+      source);
+}
 
 /// Sources as the complex has them: behind a mask simplices have other numbers there.
 class Inside {
@@ -30,5 +54,16 @@ class Inside {
   std::vector<Source> any_;
   SourceList sources_;
 };
+
+/// What fields of points are solved on, one by one.
+struct RowComplex {
+  AnyComplex complex;  ///< as long as the domain lives; std::monostate where vertices have other
+                       ///< numbers there: then ask the domain itself
+  std::vector<PointSource> rows;  ///< as the complex has them
+};
+
+/// The complex that AnyDomain::solve takes, with the bits of that, for points of the shape. Its
+/// first vertices are those of the shape.
+[[nodiscard]] RowComplex row_complex(const AnyDomain& domain, std::span<const PointSource> rows);
 
 }  // namespace plexway

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <functional>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include <plexway/common/mask.hpp>
 #include <plexway/domain/domains.hpp>
+#include <plexway/mixed/mixed_complex.hpp>
 #include <plexway/shape/field.hpp>
 #include <plexway/shape/shape.hpp>
 #include <plexway/surface/intrinsic_delaunay.hpp>
@@ -103,5 +104,16 @@ PointCloud<Real> make_complex(const CloudShape& cloud, const Making& making) {
 template <class Real>
 TriangulatedSurface<Real> make_surface(Triangulation wanted, const Making& making,
                                        TriangulationReport& report);
+
+/// A mixed shape as pieces of one dimension and one speed each, welded where they share vertices.
+template <class Real>
+struct MixedPieces {
+  /// `speeds` are one a simplex, or none: 1 for all.
+  explicit MixedPieces(const MixedShape& shape, std::span<const double> speeds = {});
+
+  MixedComplex<Real> complex;
+  std::vector<Index> vertex;   ///< of each of the shape's vertices, one of the complex; or none
+  std::vector<Index> simplex;  ///< likewise
+};
 
 }  // namespace plexway

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <set>
-#include <utility>
 #include <variant>
 
 #include <plexway/shape/support.hpp>

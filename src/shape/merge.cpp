@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -13,9 +11,9 @@
 #include <plexway/shape/shape.hpp>
 #include <plexway/shape/support.hpp>
 
-#include "shape/collapsed.hpp"
 #include "shape/merge.hpp"
 #include "shape/shape_state.hpp"
+#include "shape/words.hpp"
 
 namespace plexway {
 namespace {
@@ -94,8 +92,6 @@ AnyShape AnyShape::merged(double tolerance) const {
   state.data = data();
   state.kept = nullptr;
   merge_vertices(state, tolerance);
-  state.collapsed.clear();
-  find_collapsed(state);
   return of(std::move(state));
 }
 
@@ -105,6 +101,58 @@ std::size_t AnyShape::merged_count() const {
   std::size_t count = 0;
   for (Index v = 0; v < state_->merged.size(); ++v) count += state_->merged[v] != v;
   return count;
+}
+
+namespace {
+
+bool has_twice(std::span<const Index> corners) {
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (corners[i] == corners[j]) return true;
+  return false;
+}
+
+}  // namespace
+
+void find_collapsed(AnyShape::State& state) {
+  Index number = 0;
+  for (const io::Cells& cells : state.cells) {
+    const bool edges =
+        state.data.index() != static_cast<std::size_t>(DomainKind::simplices) && cells.corners == 2;
+    for (std::size_t c = 0; c < cells.count(); ++c, ++number)
+      if (!edges && has_twice(cells.connectivity.subspan(c * cells.corners, cells.corners)))
+        state.collapsed.push_back(number);
+  }
+}
+
+std::string collapsed_sentence(const AnyShape& shape) {
+  const auto collapsed = shape.collapsed();
+  if (collapsed.empty()) return "";
+  const std::string first = std::to_string(collapsed.front());
+  return counted(collapsed.size(), shape.simplex_name()) +
+         (collapsed.size() == 1
+              ? " (" + first + ") has a corner twice and is left out"
+              : " (" + first + " is the first) have a corner twice and are left out");
+}
+
+std::shared_ptr<const Mask> without_collapsed(const AnyShape& shape,
+                                              std::shared_ptr<const Mask> mask) {
+  const std::span<const Index> first = shape.merged_vertices();
+  if (mask && !first.empty() && mask->closed_vertices().size() == first.size()) {
+    // Whoever closes one of the vertices that are one closes the place.
+    auto whole = std::make_shared<Mask>(*mask);
+    for (Index v = 0; v < first.size(); ++v)
+      if (mask->closed_vertices()[v] != 0) whole->close_vertex(first[v]);
+    mask = std::move(whole);
+  }
+  if (shape.collapsed().empty()) return mask;
+  if (shape.collapsed().size() == shape.simplices())
+    throw InputError("all " + counted(shape.simplices(), shape.simplex_name()) +
+                     " have a corner twice: there is nothing to go along");
+  auto open = mask ? std::make_shared<Mask>(*mask)
+                   : std::make_shared<Mask>(shape.vertices(), shape.simplices());
+  for (const Index simplex : shape.collapsed()) open->close_simplex(simplex);
+  return open;
 }
 
 }  // namespace plexway

@@ -1,4 +1,4 @@
-#include "shape/mixed_domain.hpp"
+#include "shape/make_complex.hpp"
 
 #include <array>
 #include <map>

@@ -1,6 +1,5 @@
 #include <plexway/shape/open_simplices.hpp>
 
-#include <array>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -11,6 +10,7 @@
 #include <plexway/error.hpp>
 #include <plexway/support.hpp>
 
+#include "shape/inside.hpp"
 #include "shape/shape_state.hpp"
 
 namespace plexway {
@@ -85,80 +85,44 @@ PointSource OpenSimplices::inside(const PointSource& point) const {
 
 Source OpenSimplices::inside(const Source& source) const {
   Source there = source;
-  std::visit(
-      [&](auto& one) {
-        using Kind = std::decay_t<decltype(one)>;
-        if constexpr (std::is_same_v<Kind, PointSource>)
-          one = inside(one);
-        else if constexpr (std::is_same_v<Kind, BallSource>)
-          one.centre = inside(one.centre);
-        else if constexpr (std::is_same_v<Kind, CurveSource>)
-          for (PointSource& point : one.points) point = inside(point);
-        else if constexpr (std::is_same_v<Kind, SimplexSource>)
-          one.simplex = numbered(one.simplex);
-        else if constexpr (std::is_same_v<Kind, VertexSource>)
-          for (Index& v : one.vertices) v = v < first_.size() ? first_[v] : v;
-      },
-      there);
+  each_place(
+      there, [&](PointSource& point) { point = inside(point); },
+      [&](Index& v) { v = v < first_.size() ? first_[v] : v; },
+      [&](Index& simplex) { simplex = numbered(simplex); });
   return there;
 }
 
 AnyShape AnyShape::open_part(const Mask& mask) const {
   if (kind() != DomainKind::mixed) support(Purpose::masks, kind()).require();
   check(mask, *this);
-  if (!state_->merged.empty()) {
-    State alone = *state_;
-    alone.merged.clear();
-    State open = of(std::move(alone)).open_part(mask).state();
-    open.merged = state_->merged;
-    open.merge_tolerance = state_->merge_tolerance;
-    return of(std::move(open));
-  }
-  const std::vector<std::array<double, 3>> places(positions().begin(), positions().end());
-  const MeasuredLengths* const own = lengths();
-  const auto rows = [&](const auto& corners_of, const auto& all) {
-    using Corners = typename std::decay_t<decltype(corners_of)>::value_type;
-    return mask.open_rows(std::span<const Corners>(corners_of), all);
+  std::vector<char> is_open(simplices());
+  for (std::size_t s = 0; s < is_open.size(); ++s) is_open[s] = mask.is_open(corners(s), s) ? 1 : 0;
+  // Of so many numbers a simplex, from simplex `first` on.
+  const auto leave_open = [&](auto& numbers, std::size_t first = 0, std::size_t width = 1) {
+    std::size_t at = 0;
+    std::erase_if(numbers, [&](const auto&) { return is_open[first + at++ / width] == 0; });
+    return first + at / width;
   };
-  if (const auto* surface = std::get_if<io::Triangles>(&data())) {
-    const auto& all = surface->triangles;
-    return own == nullptr
-               ? AnyShape::surface(places, mask.open(all))
-               : AnyShape::surface(vertices(), mask.open(all), rows(all, own->triangles));
+  State open;
+  open.vertices = vertices();
+  open.data = data();
+  open.merged = state_->merged;
+  open.merge_tolerance = state_->merge_tolerance;
+  std::size_t first = 0;
+  each_list(open.data, [&](auto& list) { first = leave_open(list, first); });
+  if (auto* simplices = std::get_if<SimplexShape>(&open.data)) {
+    const std::size_t width = static_cast<std::size_t>(simplices->dimension) + 1;
+    leave_open(simplices->corners, 0, width);
+    leave_open(simplices->lengths, 0, width * (width - 1) / 2);
+  } else if (auto* wires = std::get_if<io::Edges>(&open.data)) {
+    leave_open(wires->lengths);
   }
-  if (const auto* solid = std::get_if<io::Tets>(&data())) {
-    const auto& all = solid->tets;
-    return own == nullptr ? AnyShape::solid(places, mask.open(all))
-                          : AnyShape::solid(vertices(), mask.open(all), rows(all, own->tets));
+  if (lengths() != nullptr) {
+    open.lengths = *lengths();
+    leave_open(open.lengths->triangles), leave_open(open.lengths->tets);
+    open.lengths->violations = violations_in(*open.lengths);
   }
-  if (const auto* given = std::get_if<SimplexShape>(&data())) {
-    SimplexShape open = *given;
-    open.corners.clear(), open.lengths.clear();
-    const std::size_t edges = given->lengths.size() / simplices();
-    for (std::size_t s = 0; s < simplices(); ++s) {
-      const auto row = this->corners(s);
-      if (!mask.is_open(row, s)) continue;
-      open.corners.insert(open.corners.end(), row.begin(), row.end());
-      const auto first = given->lengths.begin() + static_cast<std::ptrdiff_t>(s * edges);
-      open.lengths.insert(open.lengths.end(), first, first + static_cast<std::ptrdiff_t>(edges));
-    }
-    return AnyShape::simplices(std::move(open));
-  }
-  if (const auto* parts = std::get_if<MixedShape>(&data())) {
-    MixedShape open = *parts;
-    std::size_t number = 0;
-    const auto leave = [&](auto& simplices) {
-      std::erase_if(simplices,
-                    [&](const auto& corners) { return !mask.is_open(corners, number++); });
-    };
-    for (MixedShape::Part& part : open.parts)
-      leave(part.edges), leave(part.triangles), leave(part.tets);
-    return AnyShape::mixed(std::move(open));
-  }
-  const io::Edges& wire = std::get<io::Edges>(data());
-  return wire.lengths.empty() ? AnyShape::wireframe(places, mask.open(wire.edges))
-                              : AnyShape::wireframe(wire.vertices, mask.open(wire.edges),
-                                                    rows(wire.edges, wire.lengths));
+  return of(std::move(open));
 }
 
 }  // namespace plexway

@@ -4,8 +4,6 @@
 #include <numeric>
 #include <optional>
 #include <system_error>
-#include <type_traits>
-#include <variant>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -13,7 +11,7 @@
 
 #include "file/new_file.hpp"
 #include "io/field/field_part.hpp"
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/shape_state.hpp"
 
 namespace plexway {
@@ -46,27 +44,10 @@ void write_partitioned(const AnyShape& shape, const std::filesystem::path& file,
                        std::span<const double> distance, std::span<const std::int32_t> label,
                        std::span<const double> error, const PartOf& part) {
   check_partitioned(shape, file);
-  std::vector<std::uint32_t> points;  // of a cloud, each a cell
-  std::optional<io::Cells> cells;
-  std::span<const std::uint32_t> original;
-  std::visit(
-      [&](const auto& data) {
-        using Kind = std::decay_t<decltype(data)>;
-        if constexpr (std::is_same_v<Kind, io::Triangles>) {
-          cells = io::cells_of<3>(5, data.triangles);
-        } else if constexpr (std::is_same_v<Kind, io::Tets>) {
-          cells = io::cells_of<4>(10, data.tets);
-        } else if constexpr (std::is_same_v<Kind, CloudShape>) {
-          points.resize(data.points.positions.size());
-          std::iota(points.begin(), points.end(), 0u);
-          cells = io::Cells{1, 1, points};
-          original = data.points.original;
-        }
-      },
-      shape.data());
+  const FieldCells cells(shape);
   const io::Field field = {
-      shape.positions().size(), shape.positions(), {&*cells, 1}, distance, label, original, error};
-  std::vector<std::size_t> parts(std::clamp(cells->count(), std::size_t{1}, part.count));
+      shape.vertices(), shape.positions(), cells.all, distance, label, cells.original, error};
+  std::vector<std::size_t> parts(std::clamp(field.cell_count(), std::size_t{1}, part.count));
   std::iota(parts.begin(), parts.end(), std::size_t{0});
   std::optional<io::FieldPart> own;  // none where there are more processes than cells
   if (part.number < parts.size()) own.emplace(file, field, part.number, parts.size());

@@ -11,12 +11,11 @@
 #include <plexway/paths/mixed_path_field.hpp>
 #include <plexway/shape/support.hpp>
 
+#include "complexes/common/disjoint_sets.hpp"
 #include "complexes/common/kept_parts.hpp"
 #include "executors/checks.hpp"
-#include "shape/collapsed.hpp"
 #include "shape/kept_build.hpp"
 #include "shape/make_complex.hpp"
-#include "shape/mixed_domain.hpp"
 #include "shape/prepared_kind.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/words.hpp"
@@ -258,9 +257,7 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
         Path path = paths->trace(inner(point), tracing);
         for (PathPoint& at : path.points) at.simplex = outer[at.simplex];
         if (const OpenSimplices* const open = this->open()) open->outside(path);
-        for (const PathPoint& at : path.points)
-          path.positions.push_back(
-              this->shape_.position({.simplex = at.simplex, .barycentric = at.barycentric}));
+        plexway::place(path, this->shape_);
         return path;
       };
       return {trace, [paths, inner](const PointSource& point) { return paths->at(inner(point)); }};
@@ -317,36 +314,25 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
       return SourceList(std::span<const PointSource>(room.points));
     }
     room.sources.assign(sources.sources().begin(), sources.sources().end());
-    for (Source& source : room.sources) {
-      if (auto* point = std::get_if<PointSource>(&source)) move(*point);
-      if (auto* ball = std::get_if<BallSource>(&source)) move(ball->centre);
-      if (auto* set = std::get_if<VertexSource>(&source))
-        for (Index& v : set->vertices) v = vertex(v);
-      if (auto* curve = std::get_if<CurveSource>(&source))
-        for (PointSource& point : curve->points) move(point);
-      if (auto* one = std::get_if<SimplexSource>(&source)) one->simplex = simplex(one->simplex);
-    }
+    for (Source& source : room.sources)
+      each_place(
+          source, [&](PointSource& point) { move(point); }, [&](Index& v) { v = vertex(v); },
+          [&](Index& s) { s = simplex(s); });
     return SourceList(std::span<const Source>(room.sources));
   }
 
   // Of simplices that vertices join, or vertices that are one.
   void count_components(const Mask* mask) {
-    std::vector<Index> up(pieces_.complex.vertex_count());
-    for (Index v = 0; v < up.size(); ++v) up[v] = v;
-    const auto top = [&](Index v) {
-      while (up[v] != v) v = up[v] = up[up[v]];
-      return v;
-    };
-    const auto join = [&](Index a, Index b) { up[top(a)] = top(b); };
+    DisjointSets sets(pieces_.complex.vertex_count());
     for (std::size_t s = 0; s < this->shape_.simplices(); ++s) {
       const auto corners = this->shape_.corners(s);
       if (mask != nullptr && !mask->is_open(corners, s)) continue;
-      for (const Index v : corners) join(pieces_.vertex[v], pieces_.vertex[corners[0]]);
+      for (const Index v : corners) sets.unite(pieces_.vertex[v], pieces_.vertex[corners[0]]);
     }
-    for (const auto& [a, b] : pieces_.complex.outer_welds()) join(a, b);
-    std::vector<bool> seen(up.size(), false);
+    for (const auto& [a, b] : pieces_.complex.outer_welds()) sets.unite(a, b);
+    std::vector<bool> seen(pieces_.complex.vertex_count(), false);
     for (const Index v : pieces_.vertex)
-      if (v != none && !seen[top(v)]) seen[top(v)] = true, ++components_;
+      if (v != none && !seen[sets.find(v)]) seen[sets.find(v)] = true, ++components_;
   }
 
   MixedPieces<Real> pieces_;
@@ -469,7 +455,7 @@ std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOption
     open = std::make_unique<const OpenSimplices>(*options.mask, shape);
   else if (!shape.merged_vertices().empty())
     open = std::make_unique<const OpenSimplices>(Mask(shape.vertices(), shape.simplices()), shape);
-  const bool single = options.precision == Precision::single;
+  const bool single = options.precision == Precision::float32;
   std::shared_ptr<Prepared> made;
   if (const KeptBuild* const kept = shape.state().kept.get(); kept && kept->answers(options))
     made = single ? open_as<float>(shape, *kept) : open_as<double>(shape, *kept);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -14,7 +15,7 @@
 #include <plexway/solve/workspace.hpp>
 
 #include "complexes/common/kept_archive.hpp"
-#include "shape/row_complex.hpp"
+#include "shape/inside.hpp"
 
 #ifdef PLEXWAY_HAS_GL
 #include <plexway/executors/gl.hpp>
@@ -184,5 +185,23 @@ struct AnyPathField::State {
 
 /// Builds the complex of a shape. `shape` is kept.
 std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOptions& options);
+
+/// The way from a point of a shape to its nearest source, and the distance of a point in a simplex.
+struct Ways {
+  std::function<Path(const PointSource&, const TraceOptions&)> trace;
+  std::function<double(const PointSource&)> at;
+};
+/// Made for a field that was solved.
+using MakeWays = std::function<Ways(const AnyField&)>;
+
+/// A field that is read by its vertices' distances alone, linear within simplices: of mixed domains
+/// and complexes of simplices. Where there are `ways`, levels other than linear ask them. Solves on
+/// `domain`, which it keeps.
+std::shared_ptr<const AnyPathField::State> linear_field(std::shared_ptr<const Prepared> domain,
+                                                        const AnyShape& shape,
+                                                        const AnyExecutor& executor,
+                                                        std::span<const PointSource> sources,
+                                                        const PropagateOptions& options,
+                                                        const MakeWays& ways = {});
 
 }  // namespace plexway

@@ -9,12 +9,11 @@
 #include <plexway/shape/support.hpp>
 
 #include "io/extension.hpp"
-#include "shape/arguments/require.hpp"
-#include "shape/collapsed.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/fill.hpp"
 #include "shape/kept_build.hpp"
 #include "shape/merge.hpp"
-#include "shape/modules/openvdb_functions.hpp"
+#include "shape/modules/module.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/simplex_edges.hpp"
 
@@ -190,7 +189,7 @@ class ShapeFile {
   ShapeFile(std::string file, const ReadOptions& options)
       : file_(std::move(file)), options_(options), asked_(options) {}
 
-  AnyShape::State read();
+  AnyShape read();
 
  private:
   void begin(const std::string& what) const {
@@ -198,7 +197,7 @@ class ShapeFile {
   }
   void take_level_set(bool surface);
   void fill();
-  void require_strict() const;
+  void require_strict(const AnyShape& shape) const;
 
   std::string file_;
   const ReadOptions& options_;
@@ -206,7 +205,7 @@ class ShapeFile {
   AnyShape::State state_;
 };
 
-AnyShape::State ShapeFile::read() {
+AnyShape ShapeFile::read() {
   const VolumeOptions& volume = options_.volume;
   const std::optional<DomainKind> asked = options_.as;
   check(options_);
@@ -219,7 +218,7 @@ AnyShape::State ShapeFile::read() {
     asked_.check(file_, unread);
     AnyShape::State kept = read_kept_build(std::filesystem::path(file_));
     if (volume.voxel) kept.voxel = *volume.voxel;
-    return kept;
+    return AnyShape::of(std::move(kept));
   }
   // As in vdb:-.
   if (std::find(tied_to_names.begin(), tied_to_names.end(), io::InputName(file_).extension) !=
@@ -260,11 +259,10 @@ AnyShape::State ShapeFile::read() {
     take_level_set(fills || wanted == DomainKind::surface ||
                    (natural == DomainKind::surface && wanted != DomainKind::solid));
   if (fills) fill();
-  if (wanted == DomainKind::wireframe) {
-    if (const auto* surface = std::get_if<io::Triangles>(&state_.data))
-      state_.data = edges_of(*surface);
-    else if (const auto* solid = std::get_if<io::Tets>(&state_.data))
-      state_.data = edges_of(*solid);
+  if (wanted == DomainKind::wireframe && natural != DomainKind::wireframe) {
+    AnyShape::State filled;
+    filled.data = std::move(state_.data);
+    state_.data = edges_of(AnyShape::of(std::move(filled)));
   }
   if (wanted == DomainKind::cloud) {
     if (!is_cloud) points.points.positions = std::get<io::Triangles>(state_.data).positions;
@@ -272,29 +270,16 @@ AnyShape::State ShapeFile::read() {
     state_.data = make_cloud(file_, std::move(points), options_);
     state_.neighbour_seconds = looking.seconds();
   }
-  if (const auto* simplices = std::get_if<SimplexShape>(&state_.data))
-    state_.places = places_of(*simplices);
-  state_.vertices = std::visit(
-      [](const auto& data) -> std::size_t {
-        using Kind = std::decay_t<decltype(data)>;
-        if constexpr (std::is_same_v<Kind, io::Edges> || std::is_same_v<Kind, SimplexShape>)
-          return data.vertices;
-        else if constexpr (std::is_same_v<Kind, CloudShape>)
-          return data.points.positions.size();
-        else
-          return data.positions.size();
-      },
-      state_.data);
   if (options_.merge) merge_vertices(state_, *options_.merge);
-  find_collapsed(state_);
-  if (options_.strict) require_strict();
-  return std::move(state_);
+  AnyShape shape = AnyShape::of(std::move(state_));
+  if (options_.strict) require_strict(shape);
+  return shape;
 }
 
 // Nothing may be left out, guessed or repaired.
-void ShapeFile::require_strict() const {
-  std::string cause = state_.report.notes.empty() ? "" : state_.report.notes.front();
-  if (!state_.collapsed.empty()) cause = collapsed_sentence(AnyShape::of(state_));
+void ShapeFile::require_strict(const AnyShape& shape) const {
+  std::string cause = shape.report().notes.empty() ? "" : shape.report().notes.front();
+  if (!shape.collapsed().empty()) cause = collapsed_sentence(shape);
   if (!cause.empty())
     throw InputError(file_ + ": " + cause + ", which " + asked_.name("strict") + " refuses");
 }
@@ -379,16 +364,12 @@ AnyShape AnyShape::read(std::span<const std::filesystem::path> files, double tol
   }
   state.load_seconds = loading.seconds();
   state.file = names;
-  state.vertices = shape.positions.size();
   state.data = std::move(shape);
-  find_collapsed(state);
-  return AnyShape(std::make_shared<State>(std::move(state)));
+  return of(std::move(state));
 }
 
 AnyShape AnyShape::read(const std::filesystem::path& file, const ReadOptions& options) {
-  return of(ShapeFile(file.string(), options).read());
+  return ShapeFile(file.string(), options).read();
 }
-
-AnyShape AnyShape::of(State state) { return AnyShape(std::make_shared<State>(std::move(state))); }
 
 }  // namespace plexway

@@ -1,17 +1,21 @@
-#include <plexway/shape/scene.hpp>
-
-#include <string>
-#include <type_traits>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <variant>
 
 #include <plexway/error.hpp>
+#include <plexway/shape/scene.hpp>
 #include <plexway/shape/support.hpp>
 #include <plexway/surface/normals.hpp>
 
-#include "shape/arguments/require.hpp"
+#include "complexes/common/point3.hpp"
+#include "shape/arguments/arguments.hpp"
+#include "shape/boundary.hpp"
+#include "shape/scene.hpp"
+#include "shape/shape_state.hpp"
 #include "shape/simplex_edges.hpp"
-#include "shape/warnings/cloud_slopes.hpp"
 #include "shape/warnings/survey.hpp"
 
 namespace plexway {
@@ -69,43 +73,29 @@ ShapeScene::ShapeScene(const AnyShape& shape, const SceneContent& content) {
           support(Purpose::pictures, shape));
   part.value = content.distance;
   part.label = content.label;
-  std::visit(
-      [&](const auto& data) {
-        using Kind = std::decay_t<decltype(data)>;
-        if constexpr (std::is_same_v<Kind, io::Triangles>) {
-          part.triangles = data.triangles;
-          if (content.fine != nullptr && content.label.empty()) {
-            part.positions = content.fine->positions;
-            part.triangles = content.fine->faces;
-            part.value = content.fine->distance;
-          }
-        } else if constexpr (std::is_same_v<Kind, io::Tets>) {
-          part.tets = data.tets;
-          part.ghost = content.look_inside;
-        } else if constexpr (std::is_same_v<Kind, io::Edges>) {
-          part.edges = data.edges;
-        } else if constexpr (std::is_same_v<Kind, CloudShape>) {
-          normals_ = data.points.normals.empty()
-                         ? estimate_normals(data.measured(), data.neighbours)
-                         : data.points.normals;
-          part.normals = normals_;
-          if (!content.distance.empty() && content.label.empty()) {
-            slopes_ = cloud_slopes(data.measured(), normals_, data.neighbours, content.distance);
-            part.slope = slopes_;
-          }
-        } else if constexpr (std::is_same_v<Kind, MixedShape>) {
-          for (const MixedShape::Part& of : data.parts) {
-            part.edges = of.edges;
-            part.triangles = of.triangles;
-            part.tets = of.tets;
-            part.ghost = content.look_inside;
-            scene_.parts.push_back(part);
-          }
-        } else {
-          support(Purpose::pictures, shape.kind()).require();
-        }
-      },
-      shape.data());
+  if (const CloudShape* const cloud = shape.cloud()) {
+    normals_ = cloud->points.normals.empty()
+                   ? estimate_normals(cloud->measured(), cloud->neighbours)
+                   : cloud->points.normals;
+    part.normals = normals_;
+    if (!content.distance.empty() && content.label.empty()) {
+      slopes_ = cloud_slopes(cloud->measured(), normals_, cloud->neighbours, content.distance);
+      part.slope = slopes_;
+    }
+  }
+  // A part of a mixed domain has three lists.
+  for (std::size_t i = 0; i < shape.state().cells.size(); ++i) {
+    const io::Cells& cells = shape.state().cells[i];
+    if (cells.corners == 2) part.edges = rows_of<2>(cells);
+    if (cells.corners == 3) part.triangles = rows_of<3>(cells);
+    if (cells.corners == 4) part.tets = rows_of<4>(cells), part.ghost = content.look_inside;
+    if (shape.kind() == DomainKind::mixed && i % 3 == 2) scene_.parts.push_back(part);
+  }
+  if (shape.kind() == DomainKind::surface && content.fine != nullptr && content.label.empty()) {
+    part.positions = content.fine->positions;
+    part.triangles = content.fine->faces;
+    part.value = content.fine->distance;
+  }
   // What has no area shows nothing; its edges do.
   const bool filled = shape.kind() == DomainKind::surface || shape.kind() == DomainKind::solid;
   if (filled && lie_in_line(shape.positions())) {
@@ -124,6 +114,130 @@ ShapeScene::ShapeScene(const AnyShape& shape, const SceneContent& content) {
   dots.positions = content.dots;
   if (!content.label.empty()) dots.colour = {35, 40, 50};
   scene_.dots = {std::move(dots)};
+}
+
+void fill_page(io::Page& page, const AnyShape& shape, const SceneContent& content) {
+  page.positions = shape.positions();
+  require(shape.file().empty() ? "the domain" : shape.file().string(),
+          support(Purpose::pictures, shape));
+  page.value = content.distance;
+  page.label = content.label;
+  for (const io::Cells& cells : shape.state().cells) {
+    if (cells.corners == 2)
+      for (const auto& edge : rows_of<2>(cells)) page.edges.push_back(edge);
+    if (cells.corners == 3)
+      for (const auto& triangle : rows_of<3>(cells)) page.triangles.push_back(triangle);
+    if (cells.corners == 4)
+      for (const auto& face : boundary_faces(shape.positions(), rows_of<4>(cells)))
+        page.triangles.push_back(face);
+  }
+  // Inside a solid there is something to see: of its skin the edges are left.
+  if (content.look_inside && shape.kind() == DomainKind::solid) {
+    for (const auto& [a, b, c] : page.triangles)
+      page.edges.insert(page.edges.end(), {{a, b}, {b, c}, {c, a}});
+    page.triangles.clear();
+  }
+  page.sources = content.sources;
+  page.targets = content.targets;
+  page.dots = content.dots;
+  page.paths = content.paths;
+}
+
+namespace {
+
+struct Extents {
+  std::array<double, 3> low, high;
+
+  Extents() {
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+  }
+  void add(const std::array<double, 3>& p) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  }
+  [[nodiscard]] double size(std::size_t k) const { return high[k] - low[k]; }
+};
+
+// How widely a part is spread across axis k, as a share of the whole.
+double spread(const Extents& part, const Extents& whole, std::size_t k) {
+  const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+  return part.size(a) / whole.size(a) * (part.size(b) / whole.size(b));
+}
+
+}  // namespace
+
+char probable_up(const AnyShape& shape) {
+  const auto positions = shape.positions();
+  if (positions.empty()) return 'z';
+  Extents whole;
+  for (const auto& p : positions) whole.add(p);
+  const std::array<double, 3> size = {whole.size(0), whole.size(1), whole.size(2)};
+  const auto least =
+      static_cast<std::size_t>(std::min_element(size.begin(), size.end()) - size.begin());
+  const double next = std::min(size[(least + 1) % 3], size[(least + 2) % 3]);
+  if (!(size[least] > 1e-3 * next)) return 'z';  // a sheet or a line is seen from where it shows
+  constexpr double flat = 0.3, clear = 0.15, clearer = 0.1;
+  if (size[least] < flat * next) return least == 1 ? 'y' : 'z';
+
+  constexpr double slab = 0.02;  // of the extent
+  std::array<Extents, 3> lower, upper;
+  for (const auto& p : positions)
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (p[k] <= whole.low[k] + slab * size[k]) lower[k].add(p);
+      if (p[k] >= whole.high[k] - slab * size[k]) upper[k].add(p);
+    }
+  std::array<double, 3> foot{};
+  for (std::size_t k = 0; k < 3; ++k)
+    foot[k] = spread(lower[k], whole, k) - spread(upper[k], whole, k);
+  const double others = std::max(std::abs(foot[0]), std::abs(foot[2]));
+  return foot[1] > clear && foot[1] > others + clearer ? 'y' : 'z';
+}
+
+namespace {
+
+// Least squares in the plane across the normal; at most twice as steep as the steepest way to a
+// neighbour, for neighbours that all but lie in a line tell nothing about the way across it.
+Point3 slope(Index i, std::span<const Point3> points, const Point3& normal,
+             std::span<const Index> around, std::span<const double> value) {
+  const Point3 x = some_perpendicular(normal), y = cross(normal, x);
+  double xx = 0, xy = 0, yy = 0, xv = 0, yv = 0, steepest = 0;
+  for (const Index n : around) {
+    const double rise = value[n] - value[i];
+    if (!std::isfinite(rise)) continue;
+    const Point3 to = minus(points[n], points[i]);
+    const double a = dot(to, x), b = dot(to, y);
+    xx += a * a, xy += a * b, yy += b * b;
+    xv += a * rise, yv += b * rise;
+    if (const double length = std::sqrt(dot(to, to)); length > 0)
+      steepest = std::max(steepest, std::abs(rise) / length);
+  }
+  const double determinant = xx * yy - xy * xy;
+  if (!(determinant > 1e-6 * (xx + yy) * (xx + yy))) return {};
+  double p = (yy * xv - xy * yv) / determinant, q = (xx * yv - xy * xv) / determinant;
+  if (const double length = std::hypot(p, q); length > 2 * steepest)
+    p *= 2 * steepest / length, q *= 2 * steepest / length;
+  Point3 found;
+  for (std::size_t k = 0; k < 3; ++k) found[k] = p * x[k] + q * y[k];
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::array<double, 3>> cloud_slopes(std::span<const std::array<double, 3>> points,
+                                                std::span<const std::array<double, 3>> normals,
+                                                const Neighbours& neighbours,
+                                                std::span<const double> value) {
+  std::vector<std::array<double, 3>> found(points.size(), Point3{});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double length = std::sqrt(dot(normals[i], normals[i]));
+    if (!(length > 0) || !std::isfinite(value[i])) continue;
+    const auto point = static_cast<Index>(i);
+    found[i] = slope(point, points, unit(normals[i]), neighbours.around(point), value);
+  }
+  return found;
 }
 
 }  // namespace plexway

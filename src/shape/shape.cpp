@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include <plexway/error.hpp>
@@ -11,12 +12,11 @@
 
 #include "complexes/common/closest_point.hpp"
 #include "io/extension.hpp"
-#include "shape/arguments/require.hpp"
-#include "shape/collapsed.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/fill.hpp"
 #include "shape/kept_build.hpp"
-#include "shape/modules/openvdb_functions.hpp"
-#include "shape/modules/pcl_functions.hpp"
+#include "shape/merge.hpp"
+#include "shape/modules/module.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/words.hpp"
 
@@ -33,25 +33,20 @@ constexpr DomainKind kind_of(const AnyShape::Data& data) {
                    std::to_string(vertex) + ", but there are " + counted(vertices, "vertices"));
 }
 
-template <std::size_t N>
-void check_corners(std::span<const std::array<Index, N>> simplices, std::size_t vertices,
-                   std::string_view name) {
-  for (std::size_t s = 0; s < simplices.size(); ++s)
-    for (const Index v : simplices[s])
-      if (v >= vertices) out_of_range(name, s, v, vertices);
+constexpr std::array<std::string_view, 5> names_by_corners = {"", "", "edges", "triangles",
+                                                              "tetrahedra"};
+
+// Vertices of the cells must be those from `first` to `end`.
+void check_corners(const io::Cells& cells, std::string_view name, std::size_t first,
+                   std::size_t end, std::size_t vertices) {
+  for (std::size_t i = 0; i < cells.connectivity.size(); ++i)
+    if (const Index v = cells.connectivity[i]; v < first || v >= end)
+      out_of_range(name, i / cells.corners, v, vertices);
 }
 
 void check_count(std::size_t rows, std::size_t simplices, std::string_view what) {
   if (rows != simplices)
     throw InputError(std::to_string(rows) + " rows of lengths for " + counted(simplices, what));
-}
-
-template <std::size_t N>
-std::vector<std::array<Index, N>> rows_of(const SimplexShape& shape) {
-  std::vector<std::array<Index, N>> rows(shape.corners.size() / N);
-  for (std::size_t s = 0; s < rows.size(); ++s)
-    std::copy_n(shape.corners.begin() + static_cast<std::ptrdiff_t>(N * s), N, rows[s].begin());
-  return rows;
 }
 
 // The better of the best so far and another of `first` on.
@@ -62,40 +57,18 @@ void take(SimplexPoint& best, SimplexPoint other, std::size_t first) {
 }
 
 SimplexPoint closest_of(const AnyShape& shape, const std::array<double, 3>& point) {
-  const auto at = shape.positions();
-  return std::visit(
-      [&](const auto& data) {
-        using Kind = std::decay_t<decltype(data)>;
-        if constexpr (std::is_same_v<Kind, io::Triangles>) {
-          return closest_point(at, std::span(data.triangles), point);
-        } else if constexpr (std::is_same_v<Kind, io::Tets>) {
-          return closest_point(at, std::span(data.tets), point);
-        } else if constexpr (std::is_same_v<Kind, io::Edges>) {
-          return closest_point(at, std::span(data.edges), point);
-        } else if constexpr (std::is_same_v<Kind, MixedShape>) {
-          SimplexPoint best;
-          std::size_t first = 0;
-          for (const MixedShape::Part& part : data.parts) {
-            take(best, closest_point(at, std::span(part.edges), point), first);
-            first += part.edges.size();
-            take(best, closest_point(at, std::span(part.triangles), point), first);
-            first += part.triangles.size();
-            take(best, closest_point(at, std::span(part.tets), point), first);
-            first += part.tets.size();
-          }
-          return best;
-        } else if constexpr (std::is_same_v<Kind, SimplexShape>) {
-          const auto in = [&](const auto& rows) {
-            return closest_point(at, std::span(rows), point);
-          };
-          return data.dimension == 1   ? in(rows_of<2>(data))
-                 : data.dimension == 2 ? in(rows_of<3>(data))
-                                       : in(rows_of<4>(data));
-        } else {
-          return SimplexPoint{};
-        }
-      },
-      shape.data());
+  SimplexPoint best;
+  std::size_t first = 0;
+  for (const io::Cells& cells : shape.state().cells) {
+    const auto look = [&](const auto& rows) {
+      take(best, closest_point(shape.positions(), rows, point), first);
+    };
+    if (cells.corners == 2) look(rows_of<2>(cells));
+    if (cells.corners == 3) look(rows_of<3>(cells));
+    if (cells.corners == 4) look(rows_of<4>(cells));
+    first += cells.count();
+  }
+  return best;
 }
 
 PointSource nearest_of_points(std::span<const std::array<double, 3>> points,
@@ -112,40 +85,7 @@ PointSource nearest_of_points(std::span<const std::array<double, 3>> points,
   return PointSource::at(best);
 }
 
-// Parts of a mixed domain as the writer wants them, in numbers of their own.
-void write_mixed(const std::filesystem::path& out, const MixedShape& shape,
-                 std::span<const double> distance, std::span<const std::int32_t> label) {
-  std::vector<MixedShape::Part> own = shape.parts;
-  std::vector<io::MixedPart> parts;
-  for (MixedShape::Part& part : own) {
-    const auto move = [&](auto& rows) {
-      for (auto& row : rows)
-        for (Index& v : row) v -= static_cast<Index>(part.first_vertex);
-    };
-    move(part.edges), move(part.triangles), move(part.tets);
-    parts.push_back(
-        {.positions = std::span(shape.positions).subspan(part.first_vertex, part.vertices),
-         .edges = part.edges,
-         .triangles = part.triangles,
-         .tets = part.tets});
-  }
-  io::write_field(out, parts, distance, label);
-}
-
-}  // namespace
-
-namespace {
-
-AnyShape::State of_data(AnyShape::Data data, std::size_t vertices) {
-  AnyShape::State state;
-  state.data = std::move(data);
-  state.vertices = vertices;
-  find_collapsed(state);
-  return state;
-}
-
-}  // namespace
-
+// Where the vertices of simplices are that have up to three coordinates.
 AnyShape::Points places_of(const SimplexShape& shape) {
   AnyShape::Points places;
   if (shape.axes == 0 || shape.axes > 3) return places;
@@ -155,67 +95,106 @@ AnyShape::Points places_of(const SimplexShape& shape) {
   return places;
 }
 
+// What is given as arrays may name any vertex.
+AnyShape checked(AnyShape::State state, std::optional<std::size_t> lengths = std::nullopt) {
+  AnyShape shape = AnyShape::of(std::move(state));
+  const bool simplices = shape.kind() == DomainKind::simplices;
+  for (const io::Cells& cells : shape.state().cells)
+    check_corners(cells, simplices ? "simplices" : names_by_corners[cells.corners], 0,
+                  shape.vertices(), shape.vertices());
+  if (lengths) check_count(*lengths, shape.simplices(), shape.simplex_name());
+  return shape;
+}
+
+AnyShape::State state_of(AnyShape::Data data, std::size_t vertices = 0) {
+  AnyShape::State state;
+  state.data = std::move(data);
+  state.vertices = vertices;
+  return state;
+}
+
+}  // namespace
+
+AnyShape AnyShape::of(State state) {
+  const auto made = std::make_shared<State>(std::move(state));
+  made->cells.clear();
+  made->collapsed.clear();
+  if (made->kept) {
+    made->cells = made->kept->shape->cells();
+    made->positions = made->kept->shape->positions();
+    return AnyShape(made);
+  }
+  each_list(made->data, [&](const auto& list) { made->cells.push_back(cells_of(list)); });
+  if (const auto* simplices = std::get_if<SimplexShape>(&made->data)) {
+    made->places = places_of(*simplices);
+    made->positions = made->places;
+    made->vertices = simplices->vertices;
+    made->cells = {{0, static_cast<std::size_t>(simplices->dimension) + 1, simplices->corners}};
+  } else if (const auto* cloud = std::get_if<CloudShape>(&made->data)) {
+    made->positions = cloud->points.positions;
+  } else {
+    std::visit(
+        [&](const auto& data) {
+          if constexpr (requires { data.positions.front()[0]; }) made->positions = data.positions;
+          if constexpr (requires { data.lengths; }) made->vertices = data.vertices;
+        },
+        made->data);
+  }
+  if (made->vertices == 0) made->vertices = made->positions.size();
+  find_collapsed(*made);
+  return AnyShape(made);
+}
+
+metric::Violations violations_in(const MeasuredLengths& lengths) {
+  if (lengths.tets.empty())
+    return metric::find_violations(std::span<const std::array<double, 3>>(lengths.triangles));
+  return metric::find_violations(std::span<const std::array<double, 6>>(lengths.tets));
+}
+
 AnyShape AnyShape::surface(Points positions, std::vector<std::array<Index, 3>> triangles) {
-  const std::size_t n = positions.size();
-  check_corners<3>(triangles, n, "triangles");
-  return AnyShape(std::make_shared<State>(
-      of_data(io::Triangles{std::move(positions), std::move(triangles)}, n)));
+  return checked(state_of(io::Triangles{std::move(positions), std::move(triangles)}));
 }
 
 AnyShape AnyShape::solid(Points positions, std::vector<std::array<Index, 4>> tets) {
-  const std::size_t n = positions.size();
-  check_corners<4>(tets, n, "tetrahedra");
-  return AnyShape(
-      std::make_shared<State>(of_data(io::Tets{std::move(positions), std::move(tets)}, n)));
+  return checked(state_of(io::Tets{std::move(positions), std::move(tets)}));
 }
 
 AnyShape AnyShape::wireframe(Points positions, std::vector<std::array<Index, 2>> edges) {
   const std::size_t n = positions.size();
-  check_corners<2>(edges, n, "edges");
-  return AnyShape(std::make_shared<State>(
-      of_data(io::Edges{std::move(positions), std::move(edges), {}, n}, n)));
+  return checked(state_of(io::Edges{std::move(positions), std::move(edges), {}, n}));
 }
 
 AnyShape AnyShape::surface(std::size_t vertices, std::vector<std::array<Index, 3>> triangles,
                            std::vector<std::array<double, 3>> lengths) {
-  check_corners<3>(triangles, vertices, "triangles");
-  check_count(lengths.size(), triangles.size(), "triangles");
-  State state = of_data(io::Triangles{{}, std::move(triangles)}, vertices);
-  state.lengths.emplace();
-  state.lengths->violations =
-      metric::find_violations(std::span<const std::array<double, 3>>(lengths));
-  state.lengths->triangles = std::move(lengths);
-  return AnyShape(std::make_shared<State>(std::move(state)));
+  State state = state_of(io::Triangles{{}, std::move(triangles)}, vertices);
+  const std::size_t rows = lengths.size();
+  state.lengths.emplace().triangles = std::move(lengths);
+  state.lengths->violations = violations_in(*state.lengths);
+  return checked(std::move(state), rows);
 }
 
 AnyShape AnyShape::solid(std::size_t vertices, std::vector<std::array<Index, 4>> tets,
                          std::vector<std::array<double, 6>> lengths) {
-  check_corners<4>(tets, vertices, "tetrahedra");
-  check_count(lengths.size(), tets.size(), "tetrahedra");
-  State state = of_data(io::Tets{{}, std::move(tets)}, vertices);
-  state.lengths.emplace();
-  state.lengths->violations =
-      metric::find_violations(std::span<const std::array<double, 6>>(lengths));
-  state.lengths->tets = std::move(lengths);
-  return AnyShape(std::make_shared<State>(std::move(state)));
+  State state = state_of(io::Tets{{}, std::move(tets)}, vertices);
+  const std::size_t rows = lengths.size();
+  state.lengths.emplace().tets = std::move(lengths);
+  state.lengths->violations = violations_in(*state.lengths);
+  return checked(std::move(state), rows);
 }
 
 AnyShape AnyShape::wireframe(std::size_t vertices, std::vector<std::array<Index, 2>> edges,
                              std::vector<double> lengths) {
-  check_corners<2>(edges, vertices, "edges");
-  check_count(lengths.size(), edges.size(), "edges");
-  return AnyShape(std::make_shared<State>(
-      of_data(io::Edges{{}, std::move(edges), std::move(lengths), vertices}, vertices)));
+  const std::size_t rows = lengths.size();
+  return checked(state_of(io::Edges{{}, std::move(edges), std::move(lengths), vertices}), rows);
 }
 
 AnyShape AnyShape::cloud(io::Points points, const ReadOptions& options) {
   check(options);
   const Stopwatch looking;
   CloudShape cloud = make_cloud("a cloud", {std::move(points), 0}, options);
-  const std::size_t n = cloud.points.positions.size();
-  State state = of_data(std::move(cloud), n);
+  State state = state_of(std::move(cloud));
   state.neighbour_seconds = looking.seconds();
-  return AnyShape(std::make_shared<State>(std::move(state)));
+  return of(std::move(state));
 }
 
 AnyShape AnyShape::simplices(SimplexShape shape) {
@@ -228,9 +207,7 @@ AnyShape AnyShape::simplices(SimplexShape shape) {
                      " come in rows of " + std::to_string(corners) + ", not " +
                      std::to_string(shape.corners.size()) + " in all");
   const std::size_t count = shape.corners.size() / corners;
-  for (std::size_t i = 0; i < shape.corners.size(); ++i)
-    if (shape.corners[i] >= shape.vertices)
-      out_of_range("simplices", i / corners, shape.corners[i], shape.vertices);
+  check_corners({0, corners, shape.corners}, "simplices", 0, shape.vertices, shape.vertices);
   if (shape.axes > 0 && shape.positions.size() != shape.vertices * shape.axes)
     throw InputError(counted(shape.positions.size(), "coordinates") + " for " +
                      counted(shape.vertices, "vertices") + " of " + std::to_string(shape.axes));
@@ -240,12 +217,7 @@ AnyShape AnyShape::simplices(SimplexShape shape) {
                      " coordinates a vertex, not " + std::to_string(shape.axes));
   if (shape.axes == 0)
     check_count(shape.lengths.size(), count * corners * (corners - 1) / 2, "edges");
-  State state;
-  state.vertices = shape.vertices;
-  state.places = places_of(shape);
-  state.data = std::move(shape);
-  find_collapsed(state);
-  return AnyShape(std::make_shared<State>(std::move(state)));
+  return of(state_of(std::move(shape)));
 }
 
 AnyShape AnyShape::mixed(MixedShape shape) {
@@ -255,19 +227,17 @@ AnyShape AnyShape::mixed(MixedShape shape) {
     if (part.first_vertex != first)
       throw InputError("the parts of a mixed domain do not number their vertices through");
     first += part.vertices;
-    const auto check_rows = [&](const auto& rows, std::string_view name) {
-      for (std::size_t s = 0; s < rows.size(); ++s)
-        for (const Index v : rows[s])
-          if (v < part.first_vertex || v >= first) out_of_range(name, s, v, shape.positions.size());
+    const auto check = [&](const auto& list) {
+      const io::Cells cells = cells_of(list);
+      check_corners(cells, names_by_corners[cells.corners], part.first_vertex, first,
+                    shape.positions.size());
     };
-    check_rows(part.edges, "edges");
-    check_rows(part.triangles, "triangles");
-    check_rows(part.tets, "tetrahedra");
+    check(part.edges), check(part.triangles), check(part.tets);
   }
   if (first != shape.positions.size())
     throw InputError(counted(shape.positions.size(), "positions") + " for parts of " +
                      counted(first, "vertices"));
-  return AnyShape(std::make_shared<State>(of_data(std::move(shape), first)));
+  return of(state_of(std::move(shape)));
 }
 
 const std::filesystem::path& AnyShape::file() const { return state_->file; }
@@ -287,26 +257,11 @@ std::optional<double> AnyShape::mesh_seconds() const { return state_->mesh_secon
 std::optional<double> AnyShape::neighbour_seconds() const { return state_->neighbour_seconds; }
 
 int AnyShape::dimension() const {
-  switch (kind()) {
-    case DomainKind::surface:
-    case DomainKind::cloud:
-      return 2;
-    case DomainKind::solid:
-      return 3;
-    case DomainKind::wireframe:
-      return 1;
-    case DomainKind::simplices:
-      return std::get<SimplexShape>(data()).dimension;
-    case DomainKind::mixed:
-      break;
-  }
-  int dimension = 0;
-  for (const MixedShape::Part& part : std::get<MixedShape>(data()).parts)
-    dimension = std::max(dimension, !part.tets.empty()        ? 3
-                                    : !part.triangles.empty() ? 2
-                                    : !part.edges.empty()     ? 1
-                                                              : 0);
-  return dimension;
+  std::size_t corners = kind() == DomainKind::cloud ? 3 : 1;
+  for (const io::Cells& cells : state_->cells)
+    if (kind() != DomainKind::mixed || cells.count() > 0)
+      corners = std::max(corners, cells.corners);
+  return static_cast<int>(corners) - 1;
 }
 
 std::string_view AnyShape::simplex_name() const {
@@ -316,74 +271,21 @@ std::string_view AnyShape::simplex_name() const {
 }
 
 std::size_t AnyShape::simplices() const {
-  if (state_->kept) return state_->kept->shape->simplices();
-  return std::visit(
-      [](const auto& data) -> std::size_t {
-        using Kind = std::decay_t<decltype(data)>;
-        if constexpr (std::is_same_v<Kind, io::Triangles>) {
-          return data.triangles.size();
-        } else if constexpr (std::is_same_v<Kind, io::Tets>) {
-          return data.tets.size();
-        } else if constexpr (std::is_same_v<Kind, io::Edges>) {
-          return data.edges.size();
-        } else if constexpr (std::is_same_v<Kind, SimplexShape>) {
-          return data.corners.size() / (static_cast<std::size_t>(data.dimension) + 1);
-        } else if constexpr (std::is_same_v<Kind, MixedShape>) {
-          std::size_t count = 0;
-          for (const MixedShape::Part& part : data.parts)
-            count += part.edges.size() + part.triangles.size() + part.tets.size();
-          return count;
-        } else {
-          return 0;
-        }
-      },
-      data());
+  std::size_t count = 0;
+  for (const io::Cells& cells : state_->cells) count += cells.count();
+  return count;
 }
 
 std::span<const Index> AnyShape::corners(std::size_t simplex) const {
-  return std::visit(
-      [&](const auto& data) -> std::span<const Index> {
-        using Kind = std::decay_t<decltype(data)>;
-        if constexpr (std::is_same_v<Kind, io::Triangles>) {
-          return data.triangles[simplex];
-        } else if constexpr (std::is_same_v<Kind, io::Tets>) {
-          return data.tets[simplex];
-        } else if constexpr (std::is_same_v<Kind, io::Edges>) {
-          return data.edges[simplex];
-        } else if constexpr (std::is_same_v<Kind, SimplexShape>) {
-          const auto n = static_cast<std::size_t>(data.dimension) + 1;
-          return std::span(data.corners).subspan(n * simplex, n);
-        } else if constexpr (std::is_same_v<Kind, MixedShape>) {
-          for (const MixedShape::Part& part : data.parts) {
-            if (simplex < part.edges.size()) return part.edges[simplex];
-            simplex -= part.edges.size();
-            if (simplex < part.triangles.size()) return part.triangles[simplex];
-            simplex -= part.triangles.size();
-            if (simplex < part.tets.size()) return part.tets[simplex];
-            simplex -= part.tets.size();
-          }
-          return {};
-        } else {
-          return {};
-        }
-      },
-      data());
+  for (const io::Cells& cells : state_->cells) {
+    if (const std::size_t at = simplex * cells.corners; at < cells.connectivity.size())
+      return cells.connectivity.subspan(at, cells.corners);
+    simplex -= cells.count();
+  }
+  return {};
 }
 
-std::span<const std::array<double, 3>> AnyShape::positions() const {
-  if (state_->kept) return state_->kept->shape->positions();
-  return std::visit(
-      [&](const auto& data) -> std::span<const std::array<double, 3>> {
-        using Kind = std::decay_t<decltype(data)>;
-        if constexpr (std::is_same_v<Kind, CloudShape>)
-          return data.points.positions;
-        else if constexpr (std::is_same_v<Kind, SimplexShape>)
-          return state_->places;
-        else
-          return data.positions;
-      },
-      data());
-}
+std::span<const std::array<double, 3>> AnyShape::positions() const { return state_->positions; }
 
 PointSource AnyShape::closest(const std::array<double, 3>& point) const {
   support(Purpose::places, *this).require();
@@ -420,32 +322,42 @@ void AnyShape::write_field(const std::filesystem::path& out, std::span<const dou
                        ": no voxel has its centre in the solid: choose a smaller voxel");
     return;
   }
-  if (positions().empty() || kind() == DomainKind::simplices) {
-    // The vertices alone: as a wireframe without edges.
-    io::Edges vertices;
-    vertices.positions.assign(positions().begin(), positions().end());
-    vertices.vertices = this->vertices();
-    return io::write_field(out, vertices, distance, label);
+  const CloudShape* const points = cloud();
+  if (points != nullptr && io::lower_extension(out) == ".pcd")
+    return pcl_functions(out.string())
+        .write_field(out, positions(), distance, points->points.original);
+  const FieldCells cells(*this);
+  const bool estimates = points != nullptr || kind() == DomainKind::surface;
+  io::write_field_of(out, {vertices(), positions(), cells.all, distance, label, cells.original,
+                           estimates && !positions().empty() ? error : std::span<const double>()});
+}
+
+FieldCells::FieldCells(const AnyShape& shape) {
+  if (const CloudShape* const cloud = shape.cloud()) {
+    lists_[0].resize(shape.vertices());
+    std::iota(lists_[0].begin(), lists_[0].end(), Index{0});
+    all = {{1, 1, lists_[0]}};
+    original = cloud->points.original;
+    return;
   }
-  std::visit(
-      [&](const auto& data) {
-        using Kind = std::decay_t<decltype(data)>;
-        if constexpr (std::is_same_v<Kind, CloudShape>) {
-          if (io::lower_extension(out) == ".pcd")
-            pcl_functions(out.string())
-                .write_field(out, data.points.positions, distance, data.points.original);
-          else
-            io::write_field(out, data.points, distance, label, error);
-        } else if constexpr (std::is_same_v<Kind, MixedShape>) {
-          write_mixed(out, data, distance, label);
-        } else if constexpr (!std::is_same_v<Kind, SimplexShape>) {
-          if constexpr (std::is_same_v<Kind, io::Triangles>)
-            io::write_field(out, data, distance, label, error);
-          else
-            io::write_field(out, data, distance, label);
-        }
-      },
-      data());
+  // The vertices alone: as a wireframe without edges.
+  all = {{3, 2, {}}};
+  if (shape.positions().empty() || shape.kind() == DomainKind::simplices) return;
+  all = shape.state().cells;
+  if (shape.kind() != DomainKind::mixed) return;
+  // The lists of all parts, kind after kind.
+  all.clear();
+  for (std::size_t corners = 2; corners <= 4; ++corners) {
+    std::vector<Index>& list = lists_[corners - 2];
+    io::Cells joined{};
+    for (const io::Cells& cells : shape.state().cells) {
+      if (cells.corners != corners) continue;
+      list.insert(list.end(), cells.connectivity.begin(), cells.connectivity.end());
+      joined = cells;
+    }
+    joined.connectivity = list;
+    if (!list.empty()) all.push_back(joined);
+  }
 }
 
 std::span<const std::string_view> AnyShape::field_extensions(DomainKind kind) {

@@ -1,12 +1,17 @@
 #pragma once
 
+#include <array>
 #include <memory>
+#include <span>
 #include <string>
-#include <utility>
+#include <variant>
+#include <vector>
 
 #include <plexway/error.hpp>
+#include <plexway/paths/path.hpp>
 #include <plexway/shape/shape.hpp>
 
+#include "io/field/field_formats.hpp"
 #include "shape/stopwatch.hpp"
 
 namespace plexway {
@@ -20,18 +25,77 @@ struct AnyShape::State {
   Data data;  ///< of a prepared file its kind alone: KeptBuild::shape has what is in it
   std::optional<MeasuredLengths> lengths;  ///< alone, without positions
   std::size_t vertices = 0;
-  Points places;  ///< of a SimplexShape of three coordinates or fewer
   double load_seconds = 0;
   std::optional<double> mesh_seconds, neighbour_seconds;
   std::shared_ptr<const KeptBuild> kept;  ///< of a prepared file
   io::FileReport report;                  ///< of what the file has
-  std::vector<Index> collapsed;           ///< simplices with a corner twice, which are left out
   std::vector<Index> merged;              ///< AnyShape::merged_vertices
   double merge_tolerance = 0;
+
+  ///@{
+  /// What follows from these: AnyShape::of makes it.
+  std::vector<Index> collapsed;  ///< simplices with a corner twice, which are left out
+  std::vector<io::Cells> cells;  ///< all simplices in the order of their numbers, list after list
+  std::span<const std::array<double, 3>> positions;
+  Points places;  ///< of a SimplexShape of three coordinates or fewer
+  ///@}
 };
 
-/// Where the vertices of simplices are: AnyShape::State::places.
-[[nodiscard]] AnyShape::Points places_of(const SimplexShape& shape);
+/// Calls use(list) with the simplices that a shape holds, list after list in the order of their
+/// numbers; a SimplexShape has no lists.
+template <class Data, class Use>
+void each_list(Data& data, const Use& use) {
+  std::visit(
+      [&](auto& of) {
+        if constexpr (requires { of.parts; })
+          for (auto& part : of.parts) use(part.edges), use(part.triangles), use(part.tets);
+        else if constexpr (requires { of.triangles; })
+          use(of.triangles);
+        else if constexpr (requires { of.tets; })
+          use(of.tets);
+        else if constexpr (requires { of.edges; })
+          use(of.edges);
+      },
+      data);
+}
+
+/// Rows of `N` corners as cells, and cells as such rows.
+template <class List>
+[[nodiscard]] io::Cells cells_of(const List& list) {
+  constexpr std::size_t corners = std::tuple_size_v<typename List::value_type>;
+  constexpr std::array<std::uint8_t, 5> types = {0, 1, 3, 5, 10};
+  return io::cells_of<corners>(types[corners], {list.data(), list.size()});
+}
+template <std::size_t N>
+[[nodiscard]] std::span<const std::array<Index, N>> rows_of(const io::Cells& cells) {
+  return {reinterpret_cast<const std::array<Index, N>*>(cells.connectivity.data()), cells.count()};
+}
+
+/// What a file of fields has of a shape's simplices: of a cloud its points, and where vertices lie
+/// nowhere, or simplices may have any dimension, nothing.
+class FieldCells {
+ public:
+  explicit FieldCells(const AnyShape& shape);
+  FieldCells(const FieldCells&) = delete;
+  FieldCells& operator=(const FieldCells&) = delete;
+
+  std::vector<io::Cells> all;
+  std::span<const Index> original;  ///< numbers of a cloud's points in its file
+
+ private:
+  std::array<std::vector<Index>, 3> lists_;
+};
+
+/// Simplices whose lengths no flat one has.
+[[nodiscard]] metric::Violations violations_in(const MeasuredLengths& lengths);
+
+/// Gives a path the positions that its points have in a shape.
+inline void place(Path& path, const AnyShape& shape) {
+  path.positions.clear();
+  for (const PathPoint& at : path.points)
+    path.positions.push_back(
+        shape.position({.simplex = at.simplex, .barycentric = at.barycentric}));
+}
 
 /// What `build` makes of a shape, with its file's name put in front of what is wrong with it: a
 /// complex knows vertices and faces, but not where they came from.

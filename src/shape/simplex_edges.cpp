@@ -23,16 +23,6 @@ void sort_out(std::vector<std::array<std::uint32_t, 2>>& edges) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 }
 
-template <class Simplices>
-io::Edges collect(const std::vector<std::array<double, 3>>& positions, const Simplices& simplices) {
-  io::Edges made;
-  made.positions = positions;
-  made.vertices = positions.size();
-  for (const auto& corners : simplices) add_edges(corners, made.edges);
-  sort_out(made.edges);
-  return made;
-}
-
 // With any number of coordinates, or lengths of their own; where two simplices differ, the lesser.
 io::Edges edges_of_simplices(const SimplexShape& shape) {
   const auto corners = static_cast<std::size_t>(shape.dimension) + 1;
@@ -60,15 +50,7 @@ io::Edges edges_of_simplices(const SimplexShape& shape) {
   return made;
 }
 
-}  // namespace
-
-io::Edges edges_of(const io::Triangles& surface) {
-  return collect(surface.positions, surface.triangles);
-}
-
-io::Edges edges_of(const io::Tets& solid) { return collect(solid.positions, solid.tets); }
-
-io::Edges edges_of(const CloudShape& cloud) {
+io::Edges edges_of_cloud(const CloudShape& cloud) {
   io::Edges made;
   made.positions = cloud.measured();
   made.vertices = made.positions.size();
@@ -79,8 +61,10 @@ io::Edges edges_of(const CloudShape& cloud) {
   return made;
 }
 
+}  // namespace
+
 io::Edges edges_of(const AnyShape& shape) {
-  if (shape.cloud() != nullptr) return edges_of(*shape.cloud());
+  if (shape.cloud() != nullptr) return edges_of_cloud(*shape.cloud());
   if (const auto* wireframe = std::get_if<io::Edges>(&shape.data())) return *wireframe;
   if (const auto* simplices = std::get_if<SimplexShape>(&shape.data()))
     return edges_of_simplices(*simplices);

@@ -6,6 +6,9 @@
 #include <variant>
 
 #include <plexway/any_domain.hpp>
+#include <plexway/shape/complex.hpp>
+#include <plexway/shape/search.hpp>
+#include <plexway/shape/support.hpp>
 #include <plexway/solve.hpp>
 
 #include "executors/supported.hpp"
@@ -129,6 +132,31 @@ bool AnyDomain::solve_each(const AnyExecutor& executor, const SourceList& source
 bool AnyDomain::solve_each(const AnyExecutor& executor, const SourceList& sources,
                            const PropagateOptions& options, std::span<float> rows) const {
   return solve_rows(*this, executor, sources, options, rows);
+}
+
+SearchResult find_paths(const AnyDomain& domain, std::span<const PointSource> sources,
+                        std::span<const PointSource> targets, const SearchOptions& options) {
+  support(Purpose::astar, domain.kind()).require();
+  const AnyShape& shape = domain.shape();
+  const OpenSimplices* const open = domain.open_simplices();
+  const Inside from(open, sources), to(open, targets);
+  // Under a metric a straight line in space is no lower bound.
+  const bool straight = domain.lengths() == nullptr && !shape.positions().empty();
+  SearchResult found;
+  const auto search = [&]<class Real>(const TriangleMesh<Real>& mesh) {
+    PathSearch<Real> within =
+        straight ? PathSearch<Real>(mesh, shape.positions()) : PathSearch<Real>(mesh);
+    found = within.find(Serial{}, from.list().points(), to.list().points(), options);
+  };
+  with_complex(domain, [&](const auto& complex) {
+    if constexpr (std::decay_t<decltype(complex)>::kind == DomainKind::surface) search(complex);
+  });
+  for (Path& path : found.paths) {
+    if (open != nullptr) open->outside(path);
+    // The search may have known none.
+    if (path.positions.empty() && !shape.positions().empty()) place(path, shape);
+  }
+  return found;
 }
 
 }  // namespace plexway

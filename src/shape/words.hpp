@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -14,5 +16,12 @@ std::string counted(std::size_t count, std::string_view plural);
 std::string short_number(double value);
 /// "1.23 s", "4.5 ms".
 std::string short_time(double seconds);
+
+/// Seventeen digits, from which the same number is read.
+inline std::string exact_number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.17g", value);
+  return text.data();
+}
 
 }  // namespace plexway

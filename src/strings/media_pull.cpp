@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace plexway::strings {
 namespace {
@@ -233,9 +234,64 @@ void MediaPuller::pull(MediaString& string) {
     string.length = measure(string);
     return;
   }
+  weighted_ = false;
+  for (std::size_t i = string.held; i < n; ++i) {
+    if (string.places[i]->is_plane) weighted_ = true;
+    if (string.slow(i) != string.slow(i + 1)) weighted_ = true;
+  }
   for (std::size_t i = string.held; i < n; ++i)
     if (string.places[i]->is_plane) return pull_by<2>(string);
   pull_by<1>(string);
+}
+
+// Rows that meet in a vertex, their neighbours fixed: unfolded about them, straight across, or
+// where that turns pi or more all bends to the vertex. None of them gets there by itself.
+void MediaPuller::pull_fans(MediaString& string) {
+  constexpr double straight = std::numbers::pi - 1e-6;
+  const auto angle = [](const Point& p, const Point& q) {
+    return std::atan2(norm(cross(p, q)), dot(p, q));
+  };
+  const auto has = [&](std::size_t i, Index v) {
+    const Place& p = *string.places[i];
+    return p.end[0] == v || p.end[1] == v;
+  };
+  for (std::size_t i = string.held, end; i + 1 < string.bends(); i = end - 1) {
+    end = i + 2;
+    const Place& first = *string.places[i];
+    const bool low = has(i + 1, first.end[0]);
+    const Index v = first.end[low ? 0 : 1];
+    if (v == none || string.places[i + 1] == &first || (!low && !has(i + 1, v))) continue;
+    while (end < string.bends() && has(end, v)) ++end;
+    const Point at = first.at(low ? first.low : first.high);
+    const auto along = [&](std::size_t n) {
+      const Place& p = *string.places[n];
+      return p.end[0] == v ? p.along : -1. * p.along;
+    };
+    const Point in = string.corner(i) - at, out = string.corner(end + 1) - at;
+    double turned = angle(in, along(i));
+    move_[i] = turned;
+    for (std::size_t n = i + 1; n < end; ++n) move_[n] = turned += angle(along(n - 1), along(n));
+    turned += angle(along(end - 1), out);
+    const double before = norm(in), behind = norm(out);
+    for (std::size_t n = i; n < end; ++n) {
+      const Place& p = *string.places[n];
+      const double reach =
+          turned < straight
+              ? before * behind * std::sin(turned) /
+                    (before * std::sin(move_[n]) + behind * std::sin(turned - move_[n]))
+              : 0;
+      string.at[n] =
+          p.end[0] == v ? std::min(p.low + reach, p.high) : std::max(p.high - reach, p.low);
+      string.points[n] = p.at(string.at[n]);
+    }
+  }
+}
+
+// Are bends so near to each other that Newton's method does not see what is beyond?
+bool MediaPuller::is_kinked(const MediaString& string) const {
+  for (std::size_t i = string.held + 1; i < string.bends(); ++i)
+    if (lengths_[i] < 1e-5) return true;
+  return false;
 }
 
 // A leg that lies in the place at its free end has a kink where it has no length. Is the string
@@ -271,14 +327,13 @@ void MediaPuller::pull_by(MediaString& string) {
   // once a step makes this share of a difference, it is the last.
   constexpr double last = 1e-9;
   constexpr double rounding = 1e-15;
-  const bool weighted = !string.slowness.empty();
-  const int most = weighted ? 60 : 24;
-  const double shortest = weighted ? 1e-5 : 1;
+  const int most = weighted_ ? 60 : 24;
+  const double shortest = weighted_ ? 1e-5 : 1;
   at_start_ = at_end_ = false;
   int stalled = 0;
   for (int round = 0; round < most; ++round) {
     double share = 1;
-    if (weighted) {
+    if (weighted_) {
       bool leaves = false;
       at_start_ = is_at_kink(string, true, leaves);
       at_end_ = is_at_kink(string, false, leaves);
@@ -290,7 +345,7 @@ void MediaPuller::pull_by(MediaString& string) {
     differentiate<D>(string);
     const double slope = solve<D>(string);
     const bool ends = -slope < last * string.length;
-    if (weighted) share = std::min(before_kink(string, true), before_kink(string, false));
+    if (weighted_) share = std::min(before_kink(string, true), before_kink(string, false));
     const bool kinked = share < 1;
     const double least = shortest * share;
     bool shorter = false;
@@ -299,24 +354,32 @@ void MediaPuller::pull_by(MediaString& string) {
       if (ends) break;
     }
     if (shorter && !kinked) {
-      if (ends) return;
-      continue;
+      if (!ends) continue;
+      if (weighted_ || !is_kinked(string)) return;
     }
     // Too far, or over a corner where rows of edges meet.
     const double before = string.length;
+    if (!weighted_) {
+      kept_ = string.at;
+      pull_fans(string);
+      string.length = measure(string);
+      if (string.length < before * (1 - 10 * rounding)) continue;
+      string.at = kept_;
+      measure(string);
+    }
     pull_each(string);
     string.length = measure(string);
     // Two bends that meet are for who made the string to part or to join.
-    if (weighted) {
+    if (weighted_) {
       constexpr double together = 1e-6;
       for (std::size_t i = string.held + 1; i < string.bends(); ++i)
         if (lengths_[i] < together) return;
     }
-    if (shorter) continue;
+    if (shorter && weighted_) continue;
     if (!(string.length < before * (1 - 10 * rounding))) return;
     // Each for itself gets on slowly, as where bends gather at a corner.
     constexpr double slow = 1e-6;
-    if (!(string.length < before * (1 - slow)) && ++stalled > 2) return;
+    if (weighted_ && !(string.length < before * (1 - slow)) && ++stalled > 2) return;
   }
 }
 

@@ -45,6 +45,8 @@ class MediaPuller {
 
  private:
   void pull_each(MediaString& string) const;
+  void pull_fans(MediaString& string);
+  [[nodiscard]] bool is_kinked(const MediaString& string) const;
   double measure(MediaString& string);  // points, legs, length
   bool is_at_kink(const MediaString& string, bool start, bool& leaves) const;
   double before_kink(const MediaString& string, bool start) const;
@@ -57,6 +59,7 @@ class MediaPuller {
   template <std::size_t D>
   bool step(MediaString& string, double share, double least);
 
+  bool weighted_ = false;                   // media or planes, not bends in one solid alone
   bool at_start_ = false, at_end_ = false;  // the first, the last of the places is at an end
   std::vector<Point> legs_;                 // unit vectors
   std::vector<double> lengths_;             // of legs

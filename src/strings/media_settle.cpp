@@ -69,6 +69,10 @@ void MediaSolver::move_apart(Attempt& a, std::size_t begin, const Point& at) {
 bool MediaSolver::collapse(Attempt& a, std::size_t leg, bool& useless) {
   const std::size_t n = a.doors.size();
   const MediaString& s = a.string;
+  const Index own = medium_of_leg(a, leg);
+  if ((leg == 0 || medium_of_leg(a, leg - 1) == own) &&
+      (leg == n || medium_of_leg(a, leg + 1) == own))
+    return false;  // in one medium places lift off
   if (leg == 0 || leg == n) {
     // At an end another label begins or ends in the medium behind.
     const std::size_t i = leg == 0 ? 0 : n - 1;
@@ -339,12 +343,11 @@ MediaSolver::Outcome MediaSolver::settle(Attempt& a, Index to, double least) {
       continue;
     }
     if (useless) return Outcome::longer;
-    const double length = offset(a) + string.length;
-    if (!(string.length < least) || !(length * (1 + 1e-12) < limit(to, last_leg(a)))) {
-      if (string.held == 0) return Outcome::longer;
-      string.hold(0);  // what is held may gain
-      continue;
-    }
+    // What is held may gain a little.
+    const double length = offset(a) + string.length - (string.held > 0 ? 1e-3 : 0);
+    if (!(string.length < least) || !(length < direct_) ||
+        !(length * (1 + 1e-12) < limit(to, last_leg(a))))
+      return Outcome::longer;
     const std::size_t leg = blocked(a, to);
     if (leg < a.legs.size()) {
       if (!insert_touched(a, leg, to)) break;
@@ -357,6 +360,65 @@ MediaSolver::Outcome MediaSolver::settle(Attempt& a, Index to, double least) {
   string.hold(0);
   puller_.pull(string);
   return Outcome::stuck;
+}
+
+// Where a string is held at a vertex of the medium, the places of the shortest way around it
+// instead. `i` is then beyond the end, to look again; else the first of the places there.
+bool MediaSolver::past_corner(Attempt& a, Index to, Outcome& outcome, std::size_t& i) {
+  const Index m = medium_of_leg(a, i);
+  const auto& medium = space_->media()[m];
+  const Place& place = *a.string.places[i];
+  Index vertex = none;
+  if (space_->kind(place_of(a, i)) == Kind::corner)
+    vertex = medium.in_room(space_->node(place.vertex, m));
+  else if (a.string.at[i] < place.low + unmoved)
+    vertex = place.end[0];
+  else if (a.string.at[i] > place.high - unmoved)
+    vertex = place.end[1];
+  if (vertex == none) return false;
+  const Point& at = medium.room->point(vertex);
+  const auto is_there = [&](std::size_t n) {
+    return medium_of_leg(a, n) == m && medium_of_leg(a, n + 1) == m &&
+           norm(a.string.points[n] - at) < unmoved;
+  };
+  std::size_t begin = i, end = i + 1;
+  while (begin > 0 && is_there(begin - 1)) --begin;
+  while (end < a.doors.size() && is_there(end)) ++end;
+  const Point in = a.string.corner(begin) - at, out = a.string.corner(end + 1) - at;
+  if (!corner_.find(*medium.room, vertex, in, out)) return false;
+  const double least = outcome == Outcome::free ? a.string.length * (1 - 1e-12) : unreached,
+               reach = std::min(norm(in), norm(out));
+  const Point beside = end_of_leg(a, begin + 1, begin, to);
+  std::vector<Index> doors;
+  do {
+    const auto rows = corner_.rows();
+    const double half = corner_.turned() / 2;
+    doors.clear();
+    for (const Corner::Row& row : rows)
+      doors.push_back(space_->first_door(medium.first_bend + row.place));
+    other_ = a;
+    other_.splits = 0;
+    replace(other_, begin, end, doors, at);
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      const Place& p = *other_.string.places[begin + n];
+      // Unfolded, a straight line across the sectors.
+      const Point on =
+          at + reach * std::cos(half) / std::cos(rows[n].turned - half) * rows[n].along;
+      const double t = dot(on - p.origin, p.along);
+      other_.string.at[begin + n] = t;
+      other_.string.points[begin + n] = on;
+      other_.legs[begin + n].to = other_.legs[begin + n + 1].from =
+          p.holds() ? on : p.beside(t, space_->aside());
+    }
+    other_.legs[begin + rows.size()].to = beside;
+    if (settle(other_, to, least) == Outcome::free) {
+      std::swap(a, other_);
+      outcome = Outcome::free;
+      i = a.doors.size();
+      return true;
+    }
+  } while (!corner_.rows().empty() && corner_.find_other(*medium.room));
+  return false;
 }
 
 // A string held at the end of a place may be shorter past it, one at a row or a corner through
@@ -378,7 +440,11 @@ MediaSolver::Outcome MediaSolver::improve(Attempt& a, Index to, Outcome outcome)
     const Index q = place_of(a, i);
     const Kind kind = space_->kind(q);
     const Index before = medium_of_leg(a, i), after = medium_of_leg(a, i + 1);
-    if (before == after && is_held(a.string, i) && tries(i, {})) continue;
+    if (before == after && space_->media()[before].is_solid) {
+      if (past_corner(a, to, outcome, i)) continue;
+    } else if (before == after && is_held(a.string, i) && tries(i, {})) {
+      continue;
+    }
     if (kind != Kind::row && kind != Kind::corner) continue;
     const Point at = a.string.points[i], in = unit(at - a.string.corner(i)),
                 out = unit(a.string.corner(i + 2) - at);

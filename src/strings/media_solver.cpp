@@ -6,7 +6,10 @@
 
 namespace plexway::strings {
 
-MediaSolver::MediaSolver(const MediaSpace& space) : space_(&space) {
+MediaSolver::MediaSolver(const MediaSpace& space)
+    : space_(&space),
+      // Others may have come through other media.
+      other_side_(space.media().size() == 1 ? VertexLabels::same_side : 1 - 1e-10) {
   reach_.assign(space.nodes() + 1, unreached);
   for (Index n = 0; n < space.nodes(); ++n) {
     const Index p = space.point_of(n), m = space.medium_of(n);
@@ -96,7 +99,7 @@ void MediaSolver::seed() {
 }
 
 void MediaSolver::take(Index node, const Label& label) {
-  if (!nodes_[node].take(label, behind_ * slowness(medium_of(node)), other_side)) return;
+  if (!nodes_[node].take(label, behind_ * slowness(medium_of(node)), other_side_)) return;
   ++counts_.labels;
   double& best = best_[point_of(node)];
   best = std::min(best, label.distance);
@@ -105,7 +108,7 @@ void MediaSolver::take(Index node, const Label& label) {
 }
 
 double MediaSolver::limit(Index node, const Point& last) const {
-  return std::min(nodes_[node].limit(behind_ * slowness(medium_of(node)), last, other_side),
+  return std::min(nodes_[node].limit(behind_ * slowness(medium_of(node)), last, other_side_),
                   best_[point_of(node)] + reach_[node]);
 }
 
@@ -149,15 +152,13 @@ void MediaSolver::offer_through(Index node, const Label& label, Index to) {
 
 // Along the edge, if that is shorter than what was found: from the point itself, or over a row.
 void MediaSolver::offer_edge(Index node, const Label& label, Index to, double found) {
-  const Index m = medium_of(to);
-  const double length = label.distance + slowness(m) * norm(at(to) - at(node));
-  constexpr double rounding = 1e-9;
+  const double length = direct(node, label, to);
   if (found < length * (1 + rounding)) return;
-  const auto& medium = space_->media()[m];
-  if (medium_of(node) == m && medium.room)
-    for (const auto& [vertex, row] : medium.room->rows_at(medium.in_room(node)))
-      attempt(node, label, to, space_->first_door(medium.first_bend + row));
-  if (length < limit(to, {0, 0, 0}) && length < best_[point_of(to)] * (1 - rounding))
+  direct_ = length * (1 + rounding);
+  // In its own medium it may turn about a bend on the way and be shorter.
+  const auto& own = space_->media()[medium_of(node)];
+  const bool may_gain = medium_of(node) == medium_of(to) && own.room && !own.room->places().empty();
+  if (may_gain || (length < limit(to, {0, 0, 0}) && length < best_[point_of(to)] * (1 - rounding)))
     offer_corner(node, label, to);
 }
 
@@ -226,10 +227,13 @@ MediaSolver::Outcome MediaSolver::offer(Index from, const Label& label, Index to
     hints_.resize(chains_.size(), {});
   }
   if (at.knows(chain)) return Outcome::longer;
+  direct_ = direct(from, label, to) * (1 + rounding);
   const Outcome outcome = attempt(from, label, to, door);
   // Where it was blocked it may come past on another side from another node.
   if (outcome != Outcome::stuck && !attempt_.touched) at.remember(chain);
-  return outcome;
+  // One that is longer than the edge is no reason not to go there.
+  const bool by_edge = !(offset(attempt_) + attempt_.string.length < direct_);
+  return outcome == Outcome::longer && by_edge ? Outcome::stuck : outcome;
 }
 
 MediaSolver::Outcome MediaSolver::attempt(Index from, const Label& label, Index to, Index door) {
@@ -256,9 +260,8 @@ void MediaSolver::go_by_corner(Index from, const Label& label, Index to) {
 // And what is shorter past it.
 void MediaSolver::offer_corner(Index from, const Label& label, Index to) {
   go_by_corner(from, label, to);
-  Outcome outcome = settle(attempt_, to, unreached);
-  if (outcome != Outcome::longer) outcome = improve(attempt_, to, outcome);
-  if (outcome == Outcome::free) accept(attempt_, to);
+  const Outcome outcome = settle(attempt_, to, unreached);
+  if (improve(attempt_, to, outcome) == Outcome::free) accept(attempt_, to);
 }
 
 // Between the end of the string as it was and a point on the way to the new one.

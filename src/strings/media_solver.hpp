@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "strings/chains.hpp"
+#include "strings/corner.hpp"
 #include "strings/labels.hpp"
 #include "strings/media_pull.hpp"
 #include "strings/media_space.hpp"
@@ -61,11 +62,10 @@ class MediaSolver {
   using Kind = MediaSpace::Kind;
   static constexpr double unreached = std::numeric_limits<double>::infinity();
   static constexpr double unmoved = 1e-9;  // an end that moved less did not move
+  static constexpr double rounding = 1e-9;
   static constexpr double outside = 1e-6;  // of a patch
   static constexpr double gain = 1e-7;     // slopes that count, of the slowness
-  static constexpr double other_side =
-      1 - 1e-10;                         // cosine: others may have come through other media
-  static constexpr double brief = 1e-5;  // legs that may have no length
+  static constexpr double brief = 1e-5;    // legs that may have no length
 
   struct Root {
     Index source, medium, node, simplex;
@@ -108,6 +108,10 @@ class MediaSolver {
   Outcome attempt(Index from, const Label& label, Index to, Index door);
   Outcome settle(Attempt& a, Index to, double least);
   Outcome improve(Attempt& a, Index to, Outcome outcome);
+  bool past_corner(Attempt& a, Index to, Outcome& outcome, std::size_t& i);
+  [[nodiscard]] double direct(Index from, const Label& label, Index to) const {
+    return label.distance + slowness(medium_of(to)) * norm(at(to) - at(from));
+  }
 
   bool collapse(Attempt& a, std::size_t leg, bool& useless);
   bool rearrange(Attempt& a, Index to, bool& useless);
@@ -169,6 +173,7 @@ class MediaSolver {
   std::vector<Offer> queue_;
   std::unordered_map<Index, Place> corners_;
   MediaPuller puller_;
+  Corner corner_;
   Attempt base_, attempt_, other_;
   std::vector<Place> copies_;  // of a problem at one point
   std::vector<Point> apart_;   // and where its places are
@@ -176,7 +181,9 @@ class MediaSolver {
   Point attached_ = {0, 0, 0}, attached_beside_ = {0, 0, 0};
   Index attached_medium_ = none;
   bool prepared_ = false;
+  double direct_ = 0;  // on from there along the edge: a string that is offered is no longer
   double behind_ = .5;
+  double other_side_;  // cosine between last legs that differ
   Counts counts_;
 };
 

@@ -43,13 +43,13 @@ std::vector<Index> MediaSpace::simplices_around(Index simplex,
   for (std::size_t i = 0; i < 4; ++i)
     if (corner[i] != none && weight[i] > 0) first = corner[i];
   std::vector<Index> found;
-  for (Index n = around_begin_[first]; n < around_begin_[first + 1]; ++n) {
-    const auto& other = simplices_[around_[n]].corner;
+  for (const Index s : simplices_at(first)) {
+    const auto& other = simplices_[s].corner;
     bool has_all = true;
     for (std::size_t i = 0; i < 4; ++i)
       has_all = has_all && (corner[i] == none || !(weight[i] > 0) ||
                             std::find(other.begin(), other.end(), corner[i]) != other.end());
-    if (has_all) found.push_back(around_[n]);
+    if (has_all) found.push_back(s);
   }
   return found;
 }

@@ -92,6 +92,10 @@ class MediaSpace {
   /// Those that a point has that lies between corners of one of them, by one weight a corner.
   [[nodiscard]] std::vector<Index> simplices_around(Index simplex,
                                                     const std::array<double, 4>& weight) const;
+  [[nodiscard]] std::span<const Index> simplices_at(Index point) const {
+    return std::span<const Index>(around_).subspan(around_begin_[point],
+                                                   around_begin_[point + 1] - around_begin_[point]);
+  }
   [[nodiscard]] Point at(Index simplex, const std::array<double, 4>& weight) const;
   /// A little inside a medium, off a point of a simplex.
   [[nodiscard]] Point beside(Index simplex, const Point& at) const;

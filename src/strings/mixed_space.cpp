@@ -11,7 +11,6 @@
 
 #include "complexes/common/disjoint_sets.hpp"
 #include "complexes/mixed/joined_pieces.hpp"
-#include "complexes/mixed/joined_solids.hpp"
 
 namespace plexway {
 

@@ -28,6 +28,13 @@ struct MixedSpace {
     const Range& range = *(after - 1);
     return range.begin + (of_domain - range.first);
   }
+  /// And the other way.
+  [[nodiscard]] Index outer_simplex(Index of_media) const {
+    const Range* range = nullptr;
+    for (const Range& r : pieces_)
+      if (r.begin <= of_media && (range == nullptr || r.begin >= range->begin)) range = &r;
+    return range->first + (of_media - range->begin);
+  }
   [[nodiscard]] std::size_t bytes() const {
     return sizeof(*this) + (media ? media->bytes() : 0) + point.capacity() * sizeof(Index) +
            pieces_.capacity() * sizeof(Range);

@@ -100,10 +100,9 @@ MixedStrings::Found MixedStrings::at(const PointSource& point) const {
     }
   }
   const Index source = solver_->source(number);
-  if (source == none) return {std::numeric_limits<double>::infinity(), none, {}};
-  Found found{solver_->distance(number) * media.unit(), source, solver_->path(number).points};
-  for (strings::Point& p : found.points) p = media.outer(p);
-  return found;
+  if (source == none) return {std::numeric_limits<double>::infinity(), none, {}, {}};
+  auto [points, through] = solver_->path(number);
+  return {solver_->distance(number) * media.unit(), source, std::move(points), std::move(through)};
 }
 
 std::size_t MixedStrings::bytes() const {

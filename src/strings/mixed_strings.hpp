@@ -27,16 +27,19 @@ class MixedStrings {
              std::span<const PointSource> sources, const PropagateOptions& options,
              DistanceField<Real>& field);
 
-  /// The shortest path to a point; its bends and both ends, from the source on, where the domain
-  /// lies. No points where no path leads.
+  /// The shortest path to a point; its bends and both ends, from the source on, as the space has
+  /// them, and the medium of each leg. No points where no path leads.
   struct Found {
     double distance;  ///< in the domain's unit
     Index source;
     std::vector<strings::Point> points;
+    std::vector<Index> media;
   };
   /// Any number of threads may ask, one after the other.
   [[nodiscard]] Found at(const PointSource& point) const;
 
+  /// That of the last solve.
+  [[nodiscard]] const MixedSpace& space() const { return *space_; }
   [[nodiscard]] std::size_t bytes() const;
 
  private:

@@ -78,7 +78,8 @@ class SolidSpace {
         std::lower_bound(pairs.begin(), pairs.end(), std::pair<Index, Index>{vertex, 0});
     auto end = begin;
     while (end != pairs.end() && end->first == vertex) ++end;
-    return {begin, end};
+    return std::span(pairs).subspan(static_cast<std::size_t>(begin - pairs.begin()),
+                                    static_cast<std::size_t>(end - begin));
   }
   template <class Real>
   void join(const TetMesh<Real>& mesh);

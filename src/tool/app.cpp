@@ -16,7 +16,6 @@
 #include "io/did_you_mean.hpp"
 #include "io/file_bytes.hpp"
 #include "shape/info/solve_words.hpp"
-#include "tool/among.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/exit_codes.hpp"
 #include "tool/report/console.hpp"

@@ -7,7 +7,6 @@
 
 #include <plexway/mpi/ranks.hpp>
 
-#include "tool/among.hpp"
 #include "tool/app.hpp"
 #include "tool/report/console.hpp"
 

@@ -1,6 +1,6 @@
 // Every cell of the table of what goes together (support.hpp): every yes runs and is right by a
 // closed form, every no says its sentence. What the types alone rule out does not compile; that is
-// tests/executors/refused.
+// tests/wrong_programs.
 
 #include <algorithm>
 #include <catch2/catch.hpp>

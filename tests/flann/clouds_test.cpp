@@ -18,10 +18,12 @@ namespace clouds_test {
 
 namespace {
 
+using plexway::DistanceField;
 using plexway::Index;
 using plexway::PointCloud;
 using plexway::PointSource;
 using plexway::Serial;
+using plexway::Workspace;
 
 struct Errors {
   double mean = 0, beyond = 0;
@@ -209,10 +211,13 @@ struct NoisyRoof {
     }
   }
   // How much too short at worst, five spacings away.
-  [[nodiscard]] double most_short(const PointCloud<double>& cloud) const {
+  [[nodiscard]] double most_short(const PointCloud<double>& cloud,
+                                  Workspace<double>& workspace) const {
     double low = 0;
+    DistanceField<double> field;
     for (const Index source : {0u, 500u, 1250u, 1800u}) {
-      const auto found = plexway::solve(Serial{}, cloud, PointSource::at(source)).distance;
+      plexway::solve(Serial{}, cloud, PointSource::at(source), {}, workspace, field);
+      const auto& found = field.distance;
       for (std::size_t v = 0; v < points.size(); ++v) {
         const double straight =
             std::hypot(flat[v][0] - flat[source][0], flat[v][1] - flat[source][1]);
@@ -226,13 +231,14 @@ struct NoisyRoof {
 }  // namespace
 
 TEST_CASE("ways over the ridges of noisy roofs are no short cuts, or told") {
+  Workspace<double> workspace;
   for (const double noise : {.03, .05})
     for (const double degrees : {60., 75., 90., 105., 120., 130., 145., 160.})
       for (const std::uint64_t seed : {11, 12, 13}) {
         const NoisyRoof roof(degrees, noise, seed);
         const PointCloud<double> cloud(roof.points,
                                        plexway::flann::surface_neighbours(roof.points));
-        const double low = roof.most_short(cloud);
+        const double low = roof.most_short(cloud, workspace);
         CAPTURE(noise, degrees, seed, low, cloud.summary().chord_points);
         CHECK((low > -.05 || cloud.summary().chord_points > 0));
         if (degrees >= 120) CHECK(low > -.05);

@@ -1,5 +1,6 @@
-// Stands in for libFuzzer where there is none: replay NAME FILE... runs the function of
-// fuzz_NAME.cpp once on each file given, folders with all they hold.
+// What libFuzzer calls, with the name of the function in PLEXWAY_LIBFUZZER; or what stands in for
+// it: replay NAME FILE... runs the function of that name once on each file given, folders with all
+// they hold.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +13,12 @@
 
 #include "fuzz_entry.hpp"
 
+#ifdef PLEXWAY_LIBFUZZER
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const auto fuzzer = fuzz::fuzzers().at(PLEXWAY_LIBFUZZER);
+  return fuzzer(data, size);
+}
+#else
 namespace {
 
 using Fuzzer = int (*)(const std::uint8_t*, std::size_t);
@@ -54,3 +61,4 @@ int main(int argc, char** argv) {
   std::cout << files << " files replayed\n";
   return good && files != 0 ? 0 : 1;
 }
+#endif

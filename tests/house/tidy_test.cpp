@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cctype>
 #include <filesystem>
 #include <regex>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "house/source_tree.hpp"
@@ -82,6 +84,7 @@ TEST_CASE("the top level is the one agreed on") {
                                         "CONTRIBUTING.md",
                                         "SECURITY.md",
                                         "CITATION.cff",
+                                        "MANIFEST.in",
                                         ".clang-format",
                                         ".clang-tidy",
                                         ".gitignore",
@@ -112,20 +115,32 @@ TEST_CASE("one package list serves the README's commands and CI") {
   }
 }
 
-TEST_CASE("the port for vcpkg has the project's version, and options that there are") {
+TEST_CASE("recipes of other packages have the project's version, and options that there are") {
   std::smatch version;
   const std::string project = text_of("CMakeLists.txt");
   REQUIRE(std::regex_search(project, version, std::regex(R"(project\(plexway VERSION ([0-9.]+))")));
   CHECK(text_of("cmake/vcpkg/plexway/vcpkg.json").find("\"version\": \"" + version.str(1) + "\"") !=
         std::string::npos);
-  const std::string port = text_of("cmake/vcpkg/plexway/portfile.cmake");
-  static const std::regex option("-D(PLEXWAY_(?:BUILD|INSTALL)[A-Z_]*)=");
-  std::size_t options = 0;
-  for (std::sregex_iterator it(port.begin(), port.end(), option), end; it != end; ++it, ++options) {
-    INFO(it->str(1));
-    CHECK(project.find("option(" + it->str(1) + " ") != std::string::npos);
+  CHECK(text_of("cmake/conda/meta.yaml").find("set version = \"" + version.str(1) + "\"") !=
+        std::string::npos);
+  const std::string known =
+      project + text_of("complexes/CMakeLists.txt") + text_of("src/CMakeLists.txt");
+  static const std::regex option("-D(PLEXWAY_(?:BUILD_|INSTALL|WITH_)([A-Z0-9_]*))=");
+  for (const auto& [file, expected] :
+       {std::pair{"cmake/vcpkg/plexway/portfile.cmake", 5}, std::pair{"cmake/conda/meta.yaml", 7},
+        std::pair{"pyproject.toml", 7}}) {
+    const std::string recipe = text_of(file);
+    int options = 0;
+    for (std::sregex_iterator it(recipe.begin(), recipe.end(), option), end; it != end;
+         ++it, ++options) {
+      INFO(file << ": " << it->str(1));
+      std::string part = it->str(2);
+      for (char& letter : part) letter = char(std::tolower(static_cast<unsigned char>(letter)));
+      CHECK((known.find("option(" + it->str(1) + " ") != std::string::npos ||
+             known.find("plexway_provider_wanted(" + part + " ") != std::string::npos));
+    }
+    CHECK(options == expected);
   }
-  CHECK(options == 5);
 }
 
 TEST_CASE("packages that build messages name are on the list") {

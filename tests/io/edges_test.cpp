@@ -117,13 +117,8 @@ TEST_CASE("read_edges: the extension picks the format") {
   const Folder folder;
   CHECK(plexway::io::read_edges(folder.write("W.OBJ", three + "l 1 3\n")).edges == Wires{{0, 2}});
   CHECK(plexway::io::read_edges(folder.write("w.edges", "0 2 5\n")).lengths == Lengths{5});
-  const auto complaint_of = [](const std::filesystem::path& file) -> std::string {
-    try {
-      plexway::io::read_edges(file);
-    } catch (const plexway::InputError& error) {
-      return error.what();
-    }
-    return "no complaint";
+  const auto complaint_of = [](const std::filesystem::path& file) {
+    return io_testing::complaint_of(plexway::io::read_edges, file);
   };
   const auto named = [&](const char* name) { return (folder.path() / name).string(); };
   CHECK(complaint_of(named("none.edges")) == named("none.edges") + ": no such file");

@@ -42,12 +42,7 @@ std::string page() {
 }
 
 std::string complaint_of(const std::filesystem::path& file) {
-  try {
-    static_cast<void>(io::read_cells(file));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no complaint";
+  return io_testing::complaint_of(io::read_cells, file);
 }
 
 const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";

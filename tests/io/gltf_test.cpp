@@ -17,26 +17,9 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-/// A Python that has NumPy; Debian's need not be the first on the path.
-std::string python() {
-  static const std::string found = [] {
-    for (const char* name : {"/usr/bin/python3", "python3"}) {
-      const std::string probe = std::string(name) + " -c 'import numpy' >/dev/null 2>&1";
-      if (std::system(probe.c_str()) == 0) return std::string(name);
-    }
-    return std::string();
-  }();
-  return found;
-}
-
 bool peer(const std::string& arguments, const Folder& folder) {
-  if (python().empty()) return true;
-  const std::string log = (folder.path() / "log.txt").string();
-  const std::string command = python() + " -B '" PLEXWAY_SOURCE_DIR "/tests/io/gltf_peer.py' " +
-                              arguments + " >'" + log + "' 2>&1";
-  const bool good = std::system(command.c_str()) == 0;
-  if (!good) UNSCOPED_INFO(bytes_of(log));
-  return good;
+  static const std::string python = io_testing::python_with("numpy");
+  return python.empty() || io_testing::run_peer(python, "gltf_peer.py", arguments, folder);
 }
 
 std::string quoted(const std::filesystem::path& file) {

@@ -87,12 +87,6 @@ const std::string elements4 =
 
 std::string gmsh_complaint(std::string_view bytes) { return complaint(parse_gmsh, bytes); }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
 }  // namespace
 
 TEST_CASE("gmsh: ascii, sparse tags, other elements, quadratic tetrahedra") {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -35,6 +36,39 @@ std::string complaint(Parser parse, std::string_view bytes) {
     return error.what();
   }
   return "no complaint";
+}
+
+/// The message of the InputError that reading `file` must throw.
+template <class Reader>
+std::string complaint_of(Reader read, const std::filesystem::path& file) {
+  return complaint([&](std::string_view, std::string_view) { static_cast<void>(read(file)); }, "");
+}
+
+/// `text` with its first `from`, which must be there, changed to `to`.
+inline std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  const auto at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+/// A Python that has `module`; empty if there is none. Debian's need not be the first on the path.
+inline std::string python_with(const std::string& module) {
+  for (const char* name : {"/usr/bin/python3", "python3"}) {
+    const std::string probe = std::string(name) + " -c 'import " + module + "' >/dev/null 2>&1";
+    if (std::system(probe.c_str()) == 0) return name;
+  }
+  return {};
+}
+
+/// Whether a script of tests/io ends well.
+inline bool run_peer(const std::string& python, const std::string& script,
+                     const std::string& arguments, const Folder& folder) {
+  const std::string log = (folder.path() / "log.txt").string();
+  const std::string command = python + " -B '" PLEXWAY_SOURCE_DIR "/tests/io/" + script + "' " +
+                              arguments + " >'" + log + "' 2>&1";
+  const bool good = std::system(command.c_str()) == 0;
+  if (!good) UNSCOPED_INFO(bytes_of(log));
+  return good;
 }
 
 /// The bytes of numbers in little or big endian order, one after the other, as declared.

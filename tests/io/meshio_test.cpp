@@ -20,26 +20,13 @@ using plexway::io::Triangles;
 
 namespace {
 
-/// A Python that has meshio; empty if there is none. The one that Debian's package serves need not
-/// be the first on the path.
-std::string python() {
-  static const std::string found = [] {
-    for (const char* name : {"python3", "/usr/bin/python3"}) {
-      const std::string probe = std::string(name) + " -c 'import meshio' >/dev/null 2>&1";
-      if (std::system(probe.c_str()) == 0) return std::string(name);
-    }
-    return std::string();
-  }();
+const std::string& python() {
+  static const std::string found = io_testing::python_with("meshio");
   return found;
 }
 
 bool run_peer(const std::string& arguments, const Folder& folder) {
-  const std::string log = (folder.path() / "log.txt").string();
-  const std::string command = python() + " -B '" PLEXWAY_SOURCE_DIR "/tests/io/meshio_peer.py' " +
-                              arguments + " >'" + log + "' 2>&1";
-  const bool good = std::system(command.c_str()) == 0;
-  if (!good) UNSCOPED_INFO(bytes_of(log));
-  return good;
+  return io_testing::run_peer(python(), "meshio_peer.py", arguments, folder);
 }
 
 std::string digits(double value) {

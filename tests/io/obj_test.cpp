@@ -123,13 +123,8 @@ TEST_CASE("obj: a message shows nothing that is not printable and stays short") 
 
 TEST_CASE("read_triangles: what is wrong with the file itself") {
   const Folder folder;
-  const auto complaint_of = [](const std::filesystem::path& file) -> std::string {
-    try {
-      plexway::io::read_triangles(file);
-    } catch (const plexway::InputError& error) {
-      return error.what();
-    }
-    return "no complaint";
+  const auto complaint_of = [](const std::filesystem::path& file) {
+    return io_testing::complaint_of(plexway::io::read_triangles, file);
   };
   const auto named = [&](const char* name) { return (folder.path() / name).string(); };
   CHECK(complaint_of(named("none.obj")) == named("none.obj") + ": no such file");

@@ -15,8 +15,8 @@
 #include <plexway/io/write_pairs.hpp>
 
 #include "complexes/test_meshes.hpp"
-#include "folder.hpp"
 #include "io/field/half.hpp"
+#include "io/io_testing.hpp"
 #include "io/matrix/stored_zip.hpp"
 
 namespace plexway::pairs_files_test {
@@ -27,11 +27,6 @@ using namespace plexway::io;
 namespace fs = std::filesystem;
 
 constexpr double inf = std::numeric_limits<double>::infinity();
-
-std::string content(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 template <class Number>
 std::vector<Number> npy_values(const std::string& bytes) {
@@ -114,7 +109,7 @@ TEST_CASE("rows of a matrix file may come in any order and read back") {
     CHECK_FALSE(fs::exists(out));
     file.commit();
     CHECK(static_cast<double>(fs::file_size(out)) == MatrixFile::bytes(2, 3, number));
-    const std::string header = content(out).substr(0, 128);
+    const std::string header = io_testing::bytes_of(out).substr(0, 128);
     CHECK(header.find("'shape': (2, 3)") != header.npos);
     CHECK(header.find("'<f" + std::to_string(size_of(number)) + "'") != header.npos);
     CHECK(folder.files() == 1);
@@ -179,7 +174,7 @@ TEST_CASE("a journal remembers finished blocks, and nothing that is not whole") 
     journal.note("two\nlines");
     // One run at a time.
     CHECK_THROWS_WITH(BlockJournal(out, what, 5), Catch::Contains("another run"));
-    whole = content(path);
+    whole = io_testing::bytes_of(path);
   }
   {
     const BlockJournal journal(out, what, 5);
@@ -194,7 +189,7 @@ TEST_CASE("a journal remembers finished blocks, and nothing that is not whole") 
   CHECK_THROWS_WITH(BlockJournal(out, {{"input", "12"}, {"radius", "4"}}, 5),
                     Catch::Contains("'radius: 3', now it is 'radius: 4'"));
   CHECK_THROWS_AS(BlockJournal(out, what, 6), Error);
-  CHECK(content(path) == whole);
+  CHECK(io_testing::bytes_of(path) == whole);
 
   // Ended at any byte: what is there counts, or it begins anew; nothing is made up.
   for (std::size_t length = 0; length <= whole.size(); ++length) {
@@ -229,7 +224,7 @@ TEST_CASE("a journal remembers finished blocks, and nothing that is not whole") 
                     Catch::Contains("no journal of ours"));
   CHECK_THROWS_WITH(BlockJournal(folder.at("n.npy"), what, 5),
                     Catch::Contains("no journal of ours"));
-  CHECK(content(folder.at("n.npy.journal")) == "a diary");
+  CHECK(io_testing::bytes_of(folder.at("n.npy.journal")) == "a diary");
 }
 
 TEST_CASE("a matrix that goes on where it was has the same bytes, dense and sparse") {
@@ -269,13 +264,14 @@ TEST_CASE("a matrix that goes on where it was has the same bytes, dense and spar
       }
     }
     CHECK(ended > 5);
-    CHECK(content(folder.at("parts" + kind)) == content(folder.at("whole" + kind)));
+    CHECK(io_testing::bytes_of(folder.at("parts" + kind)) ==
+          io_testing::bytes_of(folder.at("whole" + kind)));
   }
   CHECK(folder.files() == 6);
 
   // The sparse ones are what is near in the dense one.
-  const auto dense = npy_values<float>(content(folder.at("whole.npy")));
-  auto files = unzip(content(folder.at("whole.npz")));
+  const auto dense = npy_values<float>(io_testing::bytes_of(folder.at("whole.npy")));
+  auto files = unzip(io_testing::bytes_of(folder.at("whole.npz")));
   CHECK(files.size() == 5);
   const auto begin = npy_values<std::int32_t>(files["indptr.npy"]);
   const auto column = npy_values<std::int32_t>(files["indices.npy"]);

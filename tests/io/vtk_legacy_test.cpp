@@ -57,12 +57,6 @@ std::string binary(bool version5, const std::string& real, const std::string& in
 
 std::string vtk_complaint(std::string_view bytes) { return complaint(parse_vtk, bytes); }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
 }  // namespace
 
 TEST_CASE("vtk: ascii, both layouts of cells, any case, data behind the grid") {

@@ -1,9 +1,18 @@
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstdint>
 #include <sstream>
+#include <string>
+#include <vector>
 
+#include <plexway/error.hpp>
+#include <plexway/io/pvtu.hpp>
+
+#include "folder.hpp"
 #include "io/solid/vtu_data.hpp"
 #include "tets_testing.hpp"
 
-namespace vtu_test {
+namespace plexway::vtu_test {
 
 using namespace io_testing;
 using Catch::Contains;
@@ -133,12 +142,6 @@ void check_pieces(const plexway::io::Tets& solid) {
 
 std::string vtu_complaint(std::string_view bytes) { return complaint(parse_vtu, bytes); }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
 }  // namespace
 
 TEST_CASE("vtu: ascii, base64, appended base64 and raw, either byte order and header") {
@@ -164,6 +167,42 @@ TEST_CASE("vtu: files that VTK 9.1 wrote, compressed ones among them") {
       CHECK(solid.tets == TetList{{0, 1, 2, 3}, {4, 3, 2, 1}});
     } catch (const plexway::NotBuiltError&) {
     }
+  }
+}
+
+TEST_CASE("vtu: files that VTK 9.1 compressed by LZ4 and LZMA, in several blocks") {
+  if (!reads_vtu()) return;
+  for (const char* name :
+       {"binary_lz4.vtu", "appended_lz4.vtu", "binary_lzma.vtu", "appended_lzma.vtu"}) {
+    INFO(name);
+    const auto file = std::filesystem::path(PLEXWAY_SOURCE_DIR) / "tests/fuzz/corpus/vtu" / name;
+    try {
+      const auto solid = plexway::io::read_tets(file);
+      REQUIRE(solid.positions.size() == 216);
+      for (std::size_t v = 0; v < 216; ++v)
+        CHECK(solid.positions[v] == std::array<double, 3>{double(v % 6), double(v / 6 % 6),
+                                                          static_cast<double>(v / 36) / 2});
+      REQUIRE(solid.tets.size() == 750);
+      CHECK(solid.tets[0] == std::array<std::uint32_t, 4>{0, 1, 7, 43});
+      CHECK(solid.tets[749] == std::array<std::uint32_t, 4>{172, 208, 214, 215});
+    } catch (const plexway::NotBuiltError& missing) {
+      CHECK_THAT(missing.what(), Contains("install libl"));
+      continue;
+    }
+    // Whatever stands in the blocks, it is refused or comes to as many bytes.
+    std::ifstream in(file, std::ios::binary);
+    const std::string whole{std::istreambuf_iterator<char>(in), {}};
+    std::size_t refused = 0;
+    for (std::size_t at = 1100; at < whole.size() - 100; at += 97) {
+      std::string bad = whole;
+      bad[at] = static_cast<char>(bad[at] ^ 1);
+      try {
+        (void)parse_vtu(bad, "mesh");
+      } catch (const plexway::InputError&) {
+        ++refused;
+      }
+    }
+    CHECK(refused > 0);
   }
 }
 
@@ -224,11 +263,12 @@ TEST_CASE("vtu: what is wrong is named with its line") {
         "mesh:10: array 'Points': byte 0: there should be 6 points, but only 120 bytes follow");
   CHECK(vtu_complaint(replaced(raw, "\"5\" NumberOfCells", "\"4\" NumberOfCells")) ==
         "mesh:10: array 'Points': byte 96: points goes on for 24 bytes after its last value");
-  CHECK(vtu_complaint(replaced(raw, "byte_order",
-                               "compressor=\"vtkLZ4DataCompressor\" "
-                               "byte_order")) ==
-        "mesh:10: data packed by 'vtkLZ4DataCompressor' are not read; save the file with zlib or "
-        "without compression");
+  CHECK(
+      vtu_complaint(replaced(raw, "byte_order",
+                             "compressor=\"vtkBlosc2DataCompressor\" "
+                             "byte_order")) ==
+      "mesh:10: data packed by 'vtkBlosc2DataCompressor' are not read; save the file with zlib or "
+      "without compression");
   const std::string inline64 = Writer({"binary", false, false, false}).file();
   CHECK_THAT(vtu_complaint(replaced(inline64, "eAAAA", "eAAA-")),
              Contains("its base64 holds something else"));
@@ -254,7 +294,7 @@ TEST_CASE(
       decode_vtu_array(plain, false, encoding, "a", room),
       Contains("a: would unpack to more than the 4 bytes") && Contains("out of proportion"));
   // Thirty blocks of 64 kB in a few bytes, refused before any is unpacked.
-  encoding.compressed = true;
+  encoding.packing = plexway::io::VtuPacking::zlib;
   Packer header(false);
   for (const std::uint32_t n : {30u, 65536u, 0u}) header.put(n);
   for (int b = 0; b < 30; ++b) header.put(80u);
@@ -267,4 +307,115 @@ TEST_CASE(
   CHECK_THROWS_AS(decode_vtu_array(endless.bytes(), false, encoding, "a", room), plexway::Error);
 }
 
-}  // namespace vtu_test
+namespace {
+
+/// As ParaView writes one: ids that its point data name, and the neighbour's cell as a ghost.
+std::string part(const std::string& point_data, const std::string& cell_data,
+                 const std::string& types = "5 9") {
+  return R"(<?xml version="1.0"?>
+<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">
+  <UnstructuredGrid>
+    <Piece NumberOfPoints="5" NumberOfCells="2">
+      )" +
+         point_data +
+         R"(
+      )" +
+         cell_data +
+         R"(
+      <Points>
+        <DataArray type="Float32" Name="Points" NumberOfComponents="3" format="ascii">
+          0 0 0  1 0 0  1 1 0  0 1 0  2 0 0
+        </DataArray>
+      </Points>
+      <Cells>
+        <DataArray type="Int64" Name="connectivity" format="ascii">1 4 2 0 1 2 3</DataArray>
+        <DataArray type="Int64" Name="offsets" format="ascii">3 7</DataArray>
+        <DataArray type="UInt8" Name="types" format="ascii">)" +
+         types + R"(</DataArray>
+      </Cells>
+    </Piece>
+  </UnstructuredGrid>
+</VTKFile>
+)";
+}
+std::string array(const std::string& type, const std::string& name, const std::string& values) {
+  return "<DataArray type=\"" + type + "\" Name=\"" + name + "\" format=\"ascii\">" + values +
+         "</DataArray>";
+}
+using Corners = std::vector<std::array<Index, 3>>;
+
+}  // namespace
+
+TEST_CASE("a .pvtu names its files beside it") {
+  const ::testing::Folder folder;
+  const auto file = folder.write("d.pvtu", R"(<?xml version="1.0"?>
+<VTKFile type="PUnstructuredGrid" version="0.1">
+  <PUnstructuredGrid GhostLevel="1">
+    <PPoints><PDataArray type="Float32" NumberOfComponents="3"/></PPoints>
+    <Piece Source="d/d_0.vtu"/>
+    <Piece Source="d/a&amp;b.vtu"/>
+  </PUnstructuredGrid>
+</VTKFile>
+)");
+  CHECK(io::read_pvtu(file) == std::vector{folder.at("d/d_0.vtu"), folder.at("d/a&b.vtu")});
+  const auto refused = [&](const std::string& text, const std::string& why) {
+    const auto wrong = folder.write("wrong.pvtu", text);
+    CHECK_THROWS_WITH(io::read_pvtu(wrong), Catch::Contains("wrong.pvtu") && Catch::Contains(why));
+    CHECK_THROWS_AS(io::read_pvtu(wrong), InputError);
+  };
+  refused("<VTKFile type=\"PPolyData\"/>", "'PPolyData'");
+  refused("<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid/></VTKFile>", "no pieces");
+  refused(
+      "<VTKFile "
+      "type=\"PUnstructuredGrid\"><PUnstructuredGrid>\n<Piece/></PUnstructuredGrid></VTKFile>",
+      "wrong.pvtu:2: a piece has no Source");
+  refused(
+      "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid><Piece Source=\"a.vtu\"/>\n"
+      "<Piece Source=\"./a.vtu\"/></PUnstructuredGrid></VTKFile>",
+      "wrong.pvtu:2: names './a.vtu' a second time");
+  refused("<VTKFile", "the XML is broken");
+  CHECK_THROWS_AS(io::read_pvtu(folder.at("none.pvtu")), InputError);
+}
+
+TEST_CASE("a part has the ids of its points, and not its neighbours' cells") {
+  const ::testing::Folder folder;
+  const auto read = [&](const std::string& text) {
+    return io::read_surface_part(folder.write("part.vtu", text), 3);
+  };
+  const SurfaceFilePart plain = read(part("", ""));
+  CHECK(plain.number == 3);
+  CHECK(plain.name.ends_with("part.vtu"));
+  CHECK(plain.ids.empty());
+  CHECK(plain.positions.size() == 5);
+  CHECK(plain.triangles == Corners{{1, 4, 2}, {0, 1, 2}, {0, 2, 3}});
+
+  const std::vector<std::uint64_t> ids = {10, 11, 12, 13, 9'000'000'000};
+  const std::string numbers = "10 11 12 13 9000000000";
+  for (const std::string& data :
+       {"<PointData GlobalIds=\"Ids\">" + array("Int64", "Ids", numbers) + "</PointData>",
+        "<PointData>" + array("UInt32", "original", "0 1 2 3 4") +
+            array("Int64", "GlobalPointIds", numbers) + "</PointData>",
+        "<PointData>" + array("UInt64", "original", numbers) + "</PointData>"})
+    CHECK(read(part(data, "")).ids == ids);
+  CHECK(read(part("<PointData>" + array("UInt64", "original", numbers) + "</PointData>", ""))
+            .ids_name == "original");
+  // A duplicate cell (1), not one that is refined or hidden (8, 32); levels as they were.
+  const auto with_ghosts = [&](const std::string& name, const std::string& marks) {
+    return read(part("", "<CellData>" + array("UInt8", name, marks) + "</CellData>")).triangles;
+  };
+  CHECK(with_ghosts("vtkGhostType", "1 0") == Corners{{0, 1, 2}, {0, 2, 3}});
+  CHECK(with_ghosts("vtkGhostType", "32 8").size() == 3);
+  CHECK(with_ghosts("vtkGhostLevels", "0 2") == Corners{{1, 4, 2}});
+  CHECK(with_ghosts("vtkGhostType", "1 1").empty());
+
+  const auto refused = [&](const std::string& text, const std::string& why) {
+    CHECK_THROWS_WITH(read(text), Catch::Contains("part.vtu") && Catch::Contains(why));
+  };
+  refused(part("<PointData>" + array("Int64", "original", "0 1 2 -3 4") + "</PointData>", ""),
+          "is -3");
+  refused(part("<PointData>" + array("Int64", "original", "0 1 2") + "</PointData>", ""),
+          "5 numbers of points");
+  refused(part("", "", "5 10"), "cells besides polygons");
+}
+
+}  // namespace plexway::vtu_test

@@ -44,7 +44,7 @@ std::vector<std::array<Index, 2>> edges_of(const Surface& surface) {
 
 template <class Real>
 BuildOptions as_given() {
-  return {.precision = std::is_same_v<Real, float> ? Precision::single : Precision::twice,
+  return {.precision = std::is_same_v<Real, float> ? Precision::float32 : Precision::float64,
           .triangulation = Triangulation::input};
 }
 
@@ -233,11 +233,11 @@ TEST_CASE("any domain: a surface is solved on the triangles that pay") {
   const std::vector<PointSource> ends = {PointSource::at(0), PointSource::at(40)};
   const CurveSource line = shape.joined(ends);
   const AnyDomain twice(shape,
-                        {.precision = Precision::twice, .triangulation = Triangulation::refined});
+                        {.precision = Precision::float64, .triangulation = Triangulation::refined});
   CHECK_THROWS_WITH(twice.solve(Serial{}, line),
                     support(Triangulation::refined, SourceKind::curve).sentence());
   CHECK(static_cast<bool>(support(Triangulation::automatic, SourceKind::curve)));
-  const AnyDomain open(shape, {.precision = Precision::twice});
+  const AnyDomain open(shape, {.precision = Precision::float64});
   const AnyField from_line = open.solve(Serial{}, line);
   CHECK(from_line.triangulation.done == Triangulation::input);
   for (std::size_t v = 0; v < from_line.size(); ++v)

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "complexes/common/point3.hpp"
-#include "shape/warnings/cloud_slopes.hpp"
+#include "shape/scene.hpp"
 
 namespace plexway::cloud_slopes_test {
 

@@ -81,7 +81,7 @@ void check_same(const AnyDomain& built, const AnyDomain& opened,
 void check_kept(const AnyShape& shape, std::span<const PointSource> sources,
                 Triangulation triangulation = Triangulation::automatic) {
   const ::testing::Folder folder;
-  for (const Precision precision : {Precision::single, Precision::twice}) {
+  for (const Precision precision : {Precision::float32, Precision::float64}) {
     const BuildOptions options{.precision = precision, .triangulation = triangulation};
     const AnyDomain built(shape, options);
     const auto file = folder.at("kept.plexway");
@@ -105,7 +105,7 @@ void check_kept(const AnyShape& shape, std::span<const PointSource> sources,
                  sources);
     // Built anew where something else is asked for.
     const BuildOptions others{
-        .precision = precision == Precision::single ? Precision::twice : Precision::single,
+        .precision = precision == Precision::float32 ? Precision::float64 : Precision::float32,
         .triangulation = triangulation};
     check_same(AnyDomain(shape, others), AnyDomain(AnyShape::read(file), others), sources);
   }

@@ -90,7 +90,7 @@ inline std::vector<Kind> all_kinds() {
 }
 
 inline AnyDomain exactly(const Kind& kind, BuildOptions options = {}) {
-  options.precision = Precision::twice;
+  options.precision = Precision::float64;
   return AnyDomain(kind.shape, options);
 }
 

@@ -40,7 +40,7 @@ MixedShape two_squares_and_a_line() {
 
 TEST_CASE("fields of mixed domains are read linearly or by paths, and tell directions") {
   const AnyShape shape = AnyShape::mixed(two_squares_and_a_line());
-  const AnyDomain domain(shape, {.precision = Precision::twice});
+  const AnyDomain domain(shape, {.precision = Precision::float64});
   const PointSource source = PointSource::at(0);
   const AnyPathField field = domain.path_field(Serial{}, std::span(&source, 1));
   const auto exact = [](const Position& p) {
@@ -115,7 +115,7 @@ TEST_CASE("fields of complexes of simplices are read linearly") {
       for (const Index corner : {v, v + 1, v + n + 1, v, v + n + 1, v + n})
         grid.corners.push_back(corner);
     }
-  const AnyDomain domain(AnyShape::simplices(grid), {.precision = Precision::twice});
+  const AnyDomain domain(AnyShape::simplices(grid), {.precision = Precision::float64});
   const PointSource source = PointSource::at(0);
   const AnyPathField field = domain.path_field(Serial{}, std::span(&source, 1));
   const PointSource middle = PointSource::in(300, {1. / 3, 1. / 3, 1. / 3});

@@ -36,7 +36,7 @@ Surface jittered(Index n, unsigned seed) {
 
 Surface opened(const Surface& s, const Mask& mask) { return {s.positions, mask.open(s.faces)}; }
 
-AnyDomain masked(const Surface& s, const Mask& mask, Precision precision = Precision::twice) {
+AnyDomain masked(const Surface& s, const Mask& mask, Precision precision = Precision::float64) {
   return AnyDomain(AnyShape::surface(s.positions, s.faces),
                    {.precision = precision, .mask = std::make_shared<Mask>(mask)});
 }
@@ -131,7 +131,7 @@ TEST_CASE("behind a mask fields, sources and paths keep the numbers of the shape
   mask.close_vertex(100);
   const Surface room = opened(s, mask);
   const auto numbers = mask.number(std::span<const Face>(s.faces));
-  for (const Precision precision : {Precision::single, Precision::twice})
+  for (const Precision precision : {Precision::float32, Precision::float64})
     for (const Triangulation triangulation : {Triangulation::automatic, Triangulation::delaunay}) {
       const AnyDomain domain(AnyShape::surface(s.positions, s.faces),
                              {.precision = precision,

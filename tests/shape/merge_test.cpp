@@ -84,7 +84,7 @@ Soup wire_soup() {
 }
 
 AnyDomain built(const AnyShape& shape, std::shared_ptr<const Mask> mask = nullptr) {
-  return AnyDomain(shape, {.precision = Precision::twice, .mask = std::move(mask)});
+  return AnyDomain(shape, {.precision = Precision::float64, .mask = std::move(mask)});
 }
 
 PropagateOptions best(const AnyShape& shape) {

@@ -46,7 +46,7 @@ PairFiles all_of(const AnyShape& domain) {
     files.rows.push_back(PointSource::at(v));
     files.columns.push_back(v);
   }
-  files.building = {.precision = Precision::twice, .triangulation = Triangulation::input};
+  files.building = {.precision = Precision::float64, .triangulation = Triangulation::input};
   files.number = io::MatrixNumber::float64;
   return files;
 }
@@ -158,7 +158,7 @@ TEST_CASE("what files were begun with is told from what is asked for now") {
     CHECK_THROWS_WITH(write_pair_files(Serial{}, domain, other, {}), Catch::Contains(text));
   };
   PairFiles other = files;
-  other.building.precision = Precision::single;
+  other.building.precision = Precision::float32;
   refused(other, "'precision: double', now it is 'precision: float'");
   other = files;
   other.solve.accuracy = Accuracy(1e-3);

@@ -46,7 +46,7 @@ std::vector<AnyDomain> domains() {
   std::vector<AnyDomain> made;
   made.emplace_back(AnyShape::surface(grid.positions, grid.faces));
   made.emplace_back(AnyShape::surface(grid.positions, grid.faces),
-                    BuildOptions{.precision = Precision::twice});
+                    BuildOptions{.precision = Precision::float64});
   made.emplace_back(AnyShape::mixed(two_squares()));
   return made;
 }

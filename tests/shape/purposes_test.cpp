@@ -125,7 +125,7 @@ TEST_CASE("how a domain of any kind is made") {
       const auto file = folder.at(std::string(kind_name(kind.shape.kind())) + ".plexway");
       const AnyDomain domain = exactly(kind);
       domain.keep(file);
-      const AnyDomain opened = AnyDomain::read(file, {}, {.precision = Precision::twice});
+      const AnyDomain opened = AnyDomain::read(file, {}, {.precision = Precision::float64});
       CHECK(opened.solve(Serial{}, source).doubles() == domain.solve(Serial{}, source).doubles());
     });
   }

@@ -53,11 +53,11 @@ TEST_CASE("any domain: paths are refracted where the speeds of a solid jump") {
     return e;
   };
   for (const Index source : {Index(3), Index(100), Index(500)}) {
-    const auto twice = errors(BuildOptions{.precision = Precision::twice}, speeds, source);
+    const auto twice = errors(BuildOptions{.precision = Precision::float64}, speeds, source);
     CAPTURE(source, twice[0], twice[1]);
     CHECK(twice[0] < 1e-4);
     CHECK(twice[1] < 2e-2);
-    const auto single = errors(BuildOptions{.precision = Precision::single}, speeds, source);
+    const auto single = errors(BuildOptions{.precision = Precision::float32}, speeds, source);
     CAPTURE(single[0], single[1]);
     CHECK(single[0] < 2e-4);
     CHECK(single[1] < 2e-2);
@@ -65,7 +65,7 @@ TEST_CASE("any domain: paths are refracted where the speeds of a solid jump") {
   // One length an edge is of first order, and what a solid of too many speeds has.
   metric::SimplexSpeeds smooth = speeds;
   smooth.agreement.sides = metric::Sides::mean;
-  CHECK(errors(BuildOptions{.precision = Precision::twice}, smooth, 100)[0] > 1e-3);
+  CHECK(errors(BuildOptions{.precision = Precision::float64}, smooth, 100)[0] > 1e-3);
   metric::SimplexSpeeds many = speeds;
   for (std::size_t t = 0; t < 70; ++t) many.speed[t] = 1 + 1e-3 * static_cast<double>(t);
   CHECK_FALSE(shape.measure(many).refracts);
@@ -76,7 +76,7 @@ TEST_CASE("any domain: paths are refracted where the speeds of a solid jump") {
   // A single speed is none: exact, as in space.
   metric::SimplexSpeeds one = speeds;
   std::fill(one.speed.begin(), one.speed.end(), 3.);
-  BuildOptions options{.precision = Precision::twice};
+  BuildOptions options{.precision = Precision::float64};
   options.lengths = std::make_shared<const MeasuredLengths>(shape.measure(one));
   const AnyDomain any(shape, options);
   const AnyField field = any.solve(Serial{}, PointSource::at(100));

@@ -36,7 +36,7 @@ TEST_CASE("the boundary of a solid is its faces: exact in a turned cube of any u
     for (Position& p : solid.positions) p = turned(p, scale);
     solid.positions.push_back({0, 0, 0});  // in no tetrahedron
     const AnyShape shape = AnyShape::solid(solid.positions, solid.tets);
-    const AnyDomain domain(shape, {.precision = Precision::twice});
+    const AnyDomain domain(shape, {.precision = Precision::float64});
     const Source boundary = shape.boundary(0.25 * scale);
     const AnyField field = domain.solve(Serial{}, boundary);
     double worst = 0;

@@ -10,6 +10,7 @@
 #include <plexway/solid/tet_mesh.hpp>
 
 #include "data/crack_plans.hpp"
+#include "strings/media_solver.hpp"
 #include "strings/solve.hpp"
 
 // Strings in prisms over random plans, against visibility graphs: exact to rounding.
@@ -136,6 +137,23 @@ struct CellPlan {
   }
 };
 
+/// The same through a space of one medium.
+std::vector<double> through_media(const CellPlan& plan, Index source) {
+  strings::Parts parts;
+  for (const auto& p : plan.places) parts.points.push_back({p[0], p[1], p[2]});
+  parts.tets = plan.tets;
+  parts.slow_tets.assign(plan.tets.size(), 1);
+  const strings::MediaSpace space(parts);
+  strings::MediaSolver solver(space);
+  strings::MediaSource from;
+  from.point = source;
+  from.at = space.point(source);
+  REQUIRE(solver.solve({&from, 1}));
+  std::vector<double> found;
+  for (Index p = 0; p < plan.places.size(); ++p) found.push_back(solver.distance(p) * space.unit());
+  return found;
+}
+
 /// The worst, too long and too short.
 std::array<double, 2> compare(const std::vector<double>& found, const std::vector<double>& truth) {
   std::array<double, 2> worst = {0, 0};
@@ -158,10 +176,14 @@ TEST_CASE("strings over plans of cells are exact") {
       const CellPlan cells(random, left_out);
       const auto source = static_cast<Index>(random() % cells.places.size());
       const TetMesh<double> mesh(cells.places, cells.tets);
-      const auto [more, less] = compare(distances(mesh, {source}), cells.truth(source));
-      CAPTURE(left_out, plan);
-      CHECK(more < 1e-12);
-      CHECK(less < 1e-12);
+      const std::vector<double> truth = cells.truth(source);
+      for (const bool media : {false, true}) {
+        const auto [more, less] =
+            compare(media ? through_media(cells, source) : distances(mesh, {source}), truth);
+        CAPTURE(left_out, plan, media);
+        CHECK(more < 1e-12);
+        CHECK(less < 1e-12);
+      }
     }
   }
 }

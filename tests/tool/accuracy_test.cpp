@@ -20,19 +20,14 @@ struct Field {
   nlohmann::json summary;
 };
 
-Field field(const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"distance", sample("knot.ply"), "--source", "vertex:7"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  std::vector<std::string> told = arguments, written = arguments;
-  told.push_back("--json");
-  written.insert(written.end(), {"--quiet", "--out", "-"});
-  const auto json = run_tool(told), csv = run_tool(written);
-  INFO(json.err);
-  REQUIRE(json.code == 0);
-  REQUIRE(csv.code == 0);
+Field field(const std::string& accuracy) {
+  const Words arguments = {"distance", sample("knot.ply"), "--source",
+                           "vertex:7", "--accuracy",       accuracy};
+  const auto csv = ran(joined(arguments, {"--quiet", "--out", "-"}));
   const bool errors = csv.out.find(",error\n") != std::string::npos;
   return {csv_column(csv.out, "distance"),
-          errors ? csv_column(csv.out, "error") : std::vector<double>(), json.json()};
+          errors ? csv_column(csv.out, "error") : std::vector<double>(),
+          ran(joined(arguments, {"--json"})).json()};
 }
 
 double mean_off(const std::vector<double>& found, const std::vector<double>& exact) {
@@ -45,18 +40,18 @@ double mean_off(const std::vector<double>& found, const std::vector<double>& exa
 }  // namespace
 
 TEST_CASE("distance is as accurate as it is asked to be, and says so") {
-  const Field exact = field({"--accuracy", "exact"});
+  const Field exact = field("exact");
   CHECK(exact.summary["accuracy"] == "exact");
   CHECK(exact.summary["precision"] == "double");
   CHECK(*std::max_element(exact.error.begin(), exact.error.end()) == 0);
-  const Field accurate = field({"--accuracy", "accurate"});
+  const Field accurate = field("accurate");
   CHECK(accurate.summary["accuracy"] == "accurate");
   CHECK(accurate.summary["precision"] == "float");
   REQUIRE(accurate.error.size() == accurate.distance.size());
   CHECK(*std::max_element(accurate.error.begin(), accurate.error.end()) > 0);
-  const Field coarse = field({"--accuracy", "1e-3"});
+  const Field coarse = field("1e-3");
   CHECK(coarse.summary["accuracy"] == 1e-3);
-  const Field fast = field({"--accuracy", "fast"});
+  const Field fast = field("fast");
   CHECK(fast.summary["accuracy"] == "fast");
   CHECK(fast.error.empty());
   CHECK(mean_off(accurate.distance, exact.distance) < 2e-4);
@@ -66,42 +61,28 @@ TEST_CASE("distance is as accurate as it is asked to be, and says so") {
 }
 
 TEST_CASE("pairs and bench know the accuracy") {
-  const auto pairs = run_tool({"pairs", sample("knot.ply"), "-s", "vertex:0", "-s", "vertex:900",
-                               "-s", "point:1,0,0.5", "--accuracy", "exact", "--json"});
-  INFO(pairs.err);
-  REQUIRE(pairs.code == 0);
+  const auto pairs = ran({"pairs", sample("knot.ply"), "-s", "vertex:0", "-s", "vertex:900", "-s",
+                          "point:1,0,0.5", "--accuracy", "exact", "--json"});
   CHECK(pairs.json()["accuracy"] == "exact");
   CHECK(pairs.json()["asymmetry"].get<double>() < 1e-9);
-  const auto bench = run_tool({"bench", sample("torus.obj"), "--source", "vertex:0", "--repeats",
-                               "1", "--accuracy", "accurate", "--json"});
-  INFO(bench.err);
-  REQUIRE(bench.code == 0);
+  const auto bench = ran({"bench", sample("torus.obj"), "--source", "vertex:0", "--repeats", "1",
+                          "--accuracy", "accurate", "--json"});
   CHECK(bench.json()["accuracy"] == "accurate");
 }
 
 TEST_CASE("solids have the accuracies fast and accurate") {
   for (const char* accuracy : {"fast", "accurate"}) {
-    const auto run = run_tool({"distance", sample("elbow.mesh"), "--source", "vertex:0",
-                               "--accuracy", accuracy, "--json"});
-    INFO(run.err);
-    REQUIRE(run.code == 0);
+    const auto run = ran({"distance", sample("elbow.mesh"), "--source", "vertex:0", "--accuracy",
+                          accuracy, "--json"});
     CHECK(run.json()["accuracy"] == accuracy);
   }
   const auto usual =
-      run_tool({"pairs", sample("elbow.mesh"), "-s", "vertex:0", "-s", "vertex:9", "--json"});
-  INFO(usual.err);
-  REQUIRE(usual.code == 0);
+      ran({"pairs", sample("elbow.mesh"), "-s", "vertex:0", "-s", "vertex:9", "--json"});
   CHECK(usual.json()["accuracy"] == "accurate");
 }
 
 TEST_CASE("an accuracy that cannot be is refused in one line") {
-  const auto refused = [](std::vector<std::string> arguments) {
-    const auto run = run_tool(arguments);
-    CAPTURE(arguments, run.err);
-    CHECK(run.code == 2);
-    CHECK(run.complaints() == 1);
-    CHECK(run.out.empty());
-  };
+  const auto refused = [](const Words& arguments) { check_refused(arguments, 2); };
   const std::string knot = sample("knot.ply");
   for (const char* no : {"best", "-1", "1", "nan", "1e-3x", ""})
     refused({"distance", knot, "--source", "vertex:0", std::string("--accuracy=") + no});
@@ -119,62 +100,32 @@ TEST_CASE("an accuracy that cannot be is refused in one line") {
            "--visibility", "centroid"});
 }
 
-TEST_CASE("labels that got much wrong on a tube that winds say so, and name the cure") {
-  // Known to be off: from there labels fall short of exact distances by more than a tenth.
-  const std::vector<std::string> command = {
-      "distance", sample("knot.ply"), "--source", "vertex:840", "--out", "-"};
-  const auto with = [&](const std::string& accuracy) {
-    auto words = command;
-    words.insert(words.end(), {"--accuracy", accuracy});
-    return run_tool(words);
+TEST_CASE(
+    "distance is accurate by default on a tube that winds, where labels are far off and say so") {
+  const Words from_840 = {"distance", sample("knot.ply"), "--source", "vertex:840"};
+  const auto with = [&](const Words& more) {
+    return ran(joined(from_840, joined(more, {"--out", "-"})));
   };
-  const auto exact = with("exact"), accurate = with("accurate"), fast = with("fast");
-  REQUIRE(exact.code == 0);
-  const auto truth = csv_column(exact.out, "distance");
-  const auto worst = [&](const std::string& csv) {
-    const auto d = csv_column(csv, "distance");
-    REQUIRE(d.size() == truth.size());
-    double most = 0;
-    for (std::size_t v = 0; v < d.size(); ++v)
-      if (truth[v] > 0) most = std::max(most, std::abs(d[v] / truth[v] - 1));
-    return most;
-  };
-  CHECK(worst(accurate.out) < 2e-3);
-  CHECK(accurate.err.find("less accurate") == std::string::npos);
-  if (worst(fast.out) > 0.1) {  // until labels are right there
-    CHECK(fast.err.find("less accurate") != std::string::npos);
-    CHECK(fast.err.find("--accuracy accurate") != std::string::npos);
-  }
-}
-
-TEST_CASE("distance is accurate by default where labels are far off") {
-  const auto from_840 = [](std::vector<std::string> more) {
-    more.insert(more.begin(), {"distance", sample("knot.ply"), "--source", "vertex:840", "--quiet",
-                               "--out", "-"});
-    const auto run = run_tool(more);
-    INFO(run.err);
-    REQUIRE(run.code == 0);
-    return csv_column(run.out, "distance");
-  };
-  const auto exact = from_840({"--accuracy", "exact"});
-  const auto worst = [&](const std::vector<double>& found) {
-    double most = 0;
+  const auto exact = csv_column(with({"--accuracy", "exact"}).out, "distance");
+  const auto worst = [&](const Outcome& run) {
+    const auto found = csv_column(run.out, "distance");
     REQUIRE(found.size() == exact.size());
+    double most = 0;
     for (std::size_t v = 0; v < exact.size(); ++v)
       if (exact[v] > 0) most = std::max(most, std::abs(found[v] / exact[v] - 1));
     return most;
   };
-  CHECK(worst(from_840({"--accuracy", "fast"})) > 0.2);  // else there is nothing to see here
-  CHECK(worst(from_840({})) <= 5e-3);
-  CHECK(worst(from_840({"--executor", "openmp", "--threads", "2"})) <= 5e-3);
+  const auto fast = with({"--accuracy", "fast"}), accurate = with({"--accuracy", "accurate"});
+  CHECK(worst(fast) > 0.2);  // else there is nothing to see here
+  CHECK_THAT(fast.err, Catch::Contains("less accurate") && Catch::Contains("--accuracy accurate"));
+  CHECK(worst(accurate) < 2e-3);
+  CHECK_THAT(accurate.err, !Catch::Contains("less accurate"));
+  CHECK(worst(with({})) < 2e-3);
+  CHECK(worst(with({"--executor", "openmp", "--threads", "2"})) < 2e-3);
   // What only labels know brings labels, and is told.
-  const auto tuned = run_tool({"distance", sample("knot.ply"), "--source", "vertex:840", "--json",
-                               "--visibility", "tuned"});
-  CHECK(tuned.json()["accuracy"] == "fast");
-  const auto both = run_tool({"distance", sample("knot.ply"), "--source", "vertex:840",
-                              "--visibility", "tuned", "--accuracy", "accurate"});
-  CHECK(both.code == 2);
-  CHECK(both.complaints() == 1);
+  const Words tuned = joined(from_840, {"--visibility", "tuned"});
+  CHECK(ran(joined(tuned, {"--json"})).json()["accuracy"] == "fast");
+  check_refused(joined(tuned, {"--accuracy", "accurate"}), 2);
 }
 
 }  // namespace accuracy_test

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <string>
 
+#include <plexway/io/tets.hpp>
+
 #include "exact_data.hpp"
 #include "io/io_testing.hpp"
 #include "tool/tool.hpp"
@@ -31,12 +33,8 @@ std::string square_truth(const std::string& first, double factor = 1) {
   return text.str();
 }
 
-Outcome bench(const std::string& mesh, const std::string& truth,
-              const std::vector<std::string>& more = {}) {
-  std::vector<std::string> command = {"bench",   mesh,  "--source",  "vertex:0",
-                                      "--truth", truth, "--repeats", "3"};
-  command.insert(command.end(), more.begin(), more.end());
-  return run_tool(command);
+Words bench(const std::string& mesh, const std::string& truth, const Words& more = {}) {
+  return joined({"bench", mesh, "--source", "vertex:0", "--truth", truth, "--repeats", "3"}, more);
 }
 
 }  // namespace
@@ -45,9 +43,7 @@ TEST_CASE("bench measures speed and error") {
   const Folder folder;
   const std::string square = folder.write("square.off", square_off(n));
   const std::string truth = folder.write("truth.txt", square_truth("nan"));
-  const auto run = bench(square, truth, {"--json", "--quiet", "--random-sources", "4"});
-  INFO(run.err);
-  REQUIRE(run.code == 0);
+  const auto run = ran(bench(square, truth, {"--json", "--quiet", "--random-sources", "4"}));
   const auto json = run.json();
   CHECK(json["ns_per_vertex"].get<double>() > 0);
   CHECK(json["bytes_per_vertex"].get<double>() > 0);
@@ -74,9 +70,7 @@ TEST_CASE("bench splits errors by where they come from") {
   const std::string square = folder.write("square.off", square_off(n));
   // All too short by a fifth, so that every split must add up to that.
   const std::string truth = folder.write("longer.txt", square_truth("nan", 1.25));
-  const auto run = bench(square, truth, {"--json", "--precision", "double", "--anatomy"});
-  INFO(run.err);
-  REQUIRE(run.code == 0);
+  const auto run = ran(bench(square, truth, {"--json", "--precision", "double", "--anatomy"}));
   std::map<std::string, double> share;
   std::map<std::string, int> vertices;
   const auto json = run.json();
@@ -96,7 +90,7 @@ TEST_CASE("bench splits errors by where they come from") {
   REQUIRE(share.size() == 5);  // solids have one more
   for (const auto& [split, sum] : share) CHECK(sum == Approx(1));
   for (const auto& [split, sum] : vertices) CHECK(sum == n * n - 2);
-  const auto text = bench(square, truth, {"--anatomy"});
+  const auto text = ran(bench(square, truth, {"--anatomy"}));
   CHECK(text.out.find("within 5 edges of the source") != std::string::npos);
   CHECK(run_tool({"bench", square, "--source", "vertex:0", "--anatomy"}).code == 2);
 }
@@ -105,8 +99,7 @@ TEST_CASE("bench reports signed errors, and what only one side reaches") {
   const Folder folder;
   const std::string square = folder.write("square.off", square_off(n));
   const std::string truth = folder.write("longer.txt", square_truth("inf", 1.25));
-  const auto run = bench(square, truth, {"--json", "--precision", "double"});
-  REQUIRE(run.code == 0);
+  const auto run = ran(bench(square, truth, {"--json", "--precision", "double"}));
   const auto json = run.json();
   CHECK(json["mean"].get<double>() == Approx(0.2));
   CHECK(json["max"].get<double>() == Approx(0.2));
@@ -117,12 +110,47 @@ TEST_CASE("bench reports signed errors, and what only one side reaches") {
 TEST_CASE("bench prints its values for people too") {
   const Folder folder;
   const std::string square = folder.write("square.off", square_off(n));
-  const auto run = bench(square, folder.write("truth.txt", square_truth("nan")));
-  REQUIRE(run.code == 0);
+  const auto run = ran(bench(square, folder.write("truth.txt", square_truth("nan"))));
   for (const char* word :
        {"ns_per_vertex", "dijkstra_ns_per_vertex", "ratio", "mean", "p99", "max", "most_below"}) {
     CHECK(run.out.find(word) != std::string::npos);
   }
+}
+
+TEST_CASE("bench measures solids, wireframes and clouds") {
+  const Folder folder;
+  std::string points, edges, far, along = "0\n", in_sight;
+  for (int v = 0; v < 100; ++v) {
+    points += std::to_string(v % 10) + " " + std::to_string(v / 10) + " 0\n";
+    far += std::to_string(std::hypot(v % 10, v / 10)) + "\n";
+    edges += std::to_string(v) + " " + std::to_string(v + 1) + " 0.5\n";
+    along += std::to_string(0.5 * (v + 1)) + "\n";
+  }
+  const auto solid = plexway::io::read_tets(sample("elbow.mesh"));
+  const auto from = solid.positions[0];  // the corner that sees all of the L
+  for (const auto& p : solid.positions)
+    in_sight += std::to_string(std::hypot(p[0] - from[0], p[1] - from[1], p[2] - from[2])) + "\n";
+  struct {
+    std::string kind, file, truth;
+    std::size_t compared;
+    double most;  // truths of six decimals
+  } const cases[] = {{"solid", sample("elbow.mesh"), in_sight, 324, 1e-5},
+                     {"wireframe", folder.write("path.edges", edges), along, 100, 1e-6},
+                     {"cloud", folder.write("flat.xyz", points), far, 99, 1e-5}};
+  for (const auto& [kind, file, truth, compared, most] : cases) {
+    const auto run = run_tool(bench(file, folder.write("truth.txt", truth), {"--json"}));
+    INFO(kind << ": " << run.err);
+    if (run.code == 4) continue;  // a build without neighbours
+    REQUIRE(run.code == 0);
+    CHECK(run.json()["kind"] == kind);
+    CHECK(run.json()["compared"] == compared);
+    CHECK(run.json()["max"].get<double>() < most);
+    CHECK(run.json()["ns_per_vertex"].get<double>() > 0);
+#ifdef PLEXWAY_HAS_BOOST_GRAPH
+    CHECK(run.json()["dijkstra_ns_per_vertex"].get<double>() > 0);
+#endif
+  }
+  ran({"bench", sample("vessels.obj"), "-s", "point:0,0,0.4", "--json"});
 }
 
 TEST_CASE("bad truth files are bad input, with file and line") {
@@ -130,12 +158,7 @@ TEST_CASE("bad truth files are bad input, with file and line") {
   const std::string square = folder.write("square.off", square_off(n));
   const auto refused = [&](const std::string& bytes, const std::string& where) {
     const std::string truth = folder.write("truth.txt", bytes);
-    const auto run = bench(square, truth);
-    INFO(run.err);
-    CHECK(run.code == 3);
-    CHECK(run.out.empty());
-    CHECK(run.complaints() == 1);
-    CHECK(run.err.rfind("plexway: error: " + truth + where, 0) == 0);
+    check_refused(bench(square, truth), 3, "plexway: error: " + truth + where);
   };
   const std::string good = square_truth("0.5");
   refused(square_truth("far"), ":2: not a number");
@@ -145,22 +168,18 @@ TEST_CASE("bad truth files are bad input, with file and line") {
   refused(good + "1\n", ":226: ");
   refused(good.substr(0, good.rfind('\n', good.size() - 2)), ":224: ends after 224 values");
   refused("", ": is empty");
-  const auto missing = bench(square, (folder.path() / "missing.txt").string());
-  CHECK(missing.code == 3);
-  CHECK(missing.err.find("missing.txt: no such file") != std::string::npos);
-  CHECK(bench(square, folder.path().string()).code == 3);
-  CHECK(bench(square, folder.write("t.txt", good), {"--truth", "other.txt"}).code == 2);
+  check_refused(bench(square, folder.at("missing.txt")), 3, "missing.txt: no such file");
+  check_refused(bench(square, folder.path()), 3);
+  check_refused(bench(square, folder.write("t.txt", good), {"--truth", "other.txt"}), 2);
   CHECK(run_tool({"bench", square, "-s", "vertex:0", "--repeats", "0"}).code == 2);
 }
 
 TEST_CASE("bench meets the exact answers of a scan") {
   using plexway::testing::exact_file;
-  const auto run = run_tool(
+  const auto run = ran(
       {"bench", exact_file("surfaces", "spot.obj").string(), "--source", "vertex:1357", "--truth",
        exact_file("surfaces", "spot.v1357.txt").string(), "--source", "vertex:2367", "--truth",
        exact_file("surfaces", "spot.v2367.txt").string(), "--json", "--repeats", "4"});
-  INFO(run.err);
-  REQUIRE(run.code == 0);
   CHECK(run.json()["mean"].get<double>() < 3.3e-3);
   CHECK(run.json()["mismatched_unreached"] == 0);
 }

@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-#include "folder.hpp"
+#include "io/io_testing.hpp"
 #include "tool/tool.hpp"
 
 namespace mask_test {
@@ -19,11 +19,6 @@ namespace mask_test {
 namespace {
 
 using namespace cli_testing;
-
-std::string content(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 }  // namespace
 
@@ -60,10 +55,8 @@ TEST_CASE("labels and regions are masks: of vertices, of the file's own cells, i
                        const std::string& mask, const std::string& file) {
     words.insert(words.begin() + 1, input);
     words.insert(words.end(), {"--mask", mask, "--out", file, "--quiet"});
-    const Outcome done = run_tool(words);
-    INFO(done.err);
-    REQUIRE(done.code == 0);
-    return content(file);
+    ran(words);
+    return io_testing::bytes_of(file);
   };
   const std::vector<std::string> distance = {"distance", "--source", "vertex:8"},
                                  pairs = {"pairs", "--sources", "all"},
@@ -92,7 +85,7 @@ TEST_CASE("labels and regions are masks: of vertices, of the file's own cells, i
   CHECK(run(corner, squares, "regions:2,5", out) == run(corner, squares, middle, out));
   const std::string csv = folder.at("d.csv");
   const auto d = csv_column(run(corner, squares, "regions:5", csv), "distance");
-  CHECK(content(csv) == run(corner, squares, half, csv));
+  CHECK(io_testing::bytes_of(csv) == run(corner, squares, half, csv));
   CHECK(d[6] == Approx(2 * std::sqrt(2)).epsilon(1e-12));  // around the corner at (1, 0)
   CHECK(d[1] == Approx(std::sqrt(2)).epsilon(1e-12));
 
@@ -105,11 +98,8 @@ TEST_CASE("labels and regions are masks: of vertices, of the file's own cells, i
         {text + ":0,3,7", 3, "closes all"},
         {folder.at("none.annot").string() + ":1", 3, "none.annot"}}) {
     CAPTURE(mask);
-    const Outcome refused =
-        run_tool({"distance", square, "--source", "vertex:8", "--mask", mask, "--out", out});
-    CHECK(refused.code == code);
-    CHECK(refused.complaints() == 1);
-    CHECK(refused.err.find(what) != std::string::npos);
+    check_refused({"distance", square, "--source", "vertex:8", "--mask", mask, "--out", out}, code,
+                  what);
   }
 }
 
@@ -120,11 +110,7 @@ TEST_CASE("masks that leave a source or a target nowhere to go are refused in on
                     faces = folder.write("faces.txt", "20\n");
   const auto refused = [&](std::vector<std::string> words, int code, const std::string& text) {
     words.insert(words.begin() + 1, input);
-    const Outcome run = run_tool(words);
-    CAPTURE(run.err, text);
-    CHECK(run.code == code);
-    CHECK(run.complaints() == 1);
-    CHECK(run.err.find(text) != std::string::npos);
+    check_refused(words, code, text);
   };
   const std::string closed = "vertices:" + mask, face = "simplices:" + faces;
   refused({"distance", "--source", "vertex:14", "--mask", closed}, 3, "vertex 14 is masked");

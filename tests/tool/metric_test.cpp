@@ -32,14 +32,9 @@ std::string halves(const std::string& off, const std::string& left, const std::s
   return rows;
 }
 
-std::vector<double> distances(const std::vector<std::string>& extra, const std::string& mesh) {
-  std::vector<std::string> all = {"distance", mesh,      "--source",    "vertex:0", "--out",
-                                  "-",        "--quiet", "--precision", "double"};
-  all.insert(all.end(), extra.begin(), extra.end());
-  const auto run = run_tool(all);
-  INFO(run.err);
-  REQUIRE(run.code == 0);
-  return csv_column(run.out, "distance");
+std::vector<double> distances(const Words& extra, const std::string& mesh) {
+  return cli_testing::distances(
+      joined({mesh, "--source", "vertex:0", "--precision", "double"}, extra));
 }
 
 }  // namespace
@@ -68,8 +63,7 @@ TEST_CASE("two speeds refract, are told of, and a path goes the quicker way") {
   const std::string mesh = folder.write("square.off", off);
   const std::string speeds = folder.write("speeds.txt", halves(off, "1", "3"));
   const auto report =
-      run_tool({"distance", mesh, "--source", "vertex:0", "--metric", "speed:" + speeds, "--json"});
-  REQUIRE(report.code == 0);
+      ran({"distance", mesh, "--source", "vertex:0", "--metric", "speed:" + speeds, "--json"});
   CHECK(report.json()["metric"] == "speed:" + speeds);
   CHECK(report.json()["refracting_edges"] == n - 1);
   CHECK(report.json()["violated"] == 0);
@@ -98,9 +92,7 @@ TEST_CASE("two speeds refract, are told of, and a path goes the quicker way") {
                                           "--out",
                                           folder.at("way.obj").string()};
     if (astar) arguments.push_back("--astar");
-    const auto path = run_tool(arguments);
-    INFO(path.err);
-    REQUIRE(path.code == 0);
+    const auto path = ran(arguments);
     CHECK(path.json()["paths"][0]["length"].get<double>() ==
           Approx(best).epsilon(astar ? 5e-3 : 1e-7));
   }
@@ -117,10 +109,9 @@ TEST_CASE("solids and wireframes are measured as well") {
   // As many speeds as tetrahedra: no regions.
   std::string many;
   for (int t = 0; t < 1152; ++t) many += std::to_string(1 + 1e-4 * t) + "\n";
-  const auto mean = run_tool({"distance", sample("elbow.mesh"), "--source", "vertex:0", "--metric",
-                              "speed:" + folder.write("many.txt", many).string()});
-  CHECK(mean.code == 0);
-  CHECK(mean.err.find("at most 64 speeds") != mean.err.npos);
+  const auto mean = ran({"distance", sample("elbow.mesh"), "--source", "vertex:0", "--metric",
+                         "speed:" + folder.write("many.txt", many).string()});
+  CHECK_THAT(mean.err, Catch::Contains("at most 64 speeds"));
   const std::string edges = folder.write("streets.edges", "0 1 3\n1 2 4\n2 0 9\n");
   CHECK(distances({}, edges) == std::vector<double>{0, 3, 7});
   const std::string speeds = folder.write("limits.txt", "1\n1\n2\n");
@@ -135,9 +126,8 @@ TEST_CASE("broken triangle inequalities are counted, told of and survived") {
                                         "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
                                         "3 0 1 2\n3 0 2 3\n");
   const std::string lengths = folder.write("lengths.txt", "0 1 1\n1 2 1\n2 0 9\n2 3 8\n3 0 8\n");
-  const auto run = run_tool(
-      {"distance", mesh, "--source", "vertex:0", "--metric", "lengths:" + lengths, "--json"});
-  REQUIRE(run.code == 0);
+  const auto run =
+      ran({"distance", mesh, "--source", "vertex:0", "--metric", "lengths:" + lengths, "--json"});
   CHECK(run.json()["violated"] == 1);
   CHECK(run.json()["unreached"] == 0);
   CHECK(run.complaints() == 1);
@@ -157,11 +147,7 @@ TEST_CASE("a metric that makes no sense is refused in one line") {
                            std::vector<std::string> extra = {}) {
     std::vector<std::string> all = {"distance", mesh, "--source", "vertex:0", "--metric", metric};
     all.insert(all.end(), extra.begin(), extra.end());
-    const auto run = run_tool(all);
-    INFO(metric << ": " << run.err);
-    CHECK(run.code == code);
-    CHECK(run.complaints() == 1);
-    CHECK(run.err.find(part) != run.err.npos);
+    check_refused(all, code, part);
   };
   refused("speed", 2, "write tensor:FILE");
   refused("colour:file", 2, "write tensor:FILE");

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "folder.hpp"
+#include "io/io_testing.hpp"
 #include "tool/tool.hpp"
 
 namespace pairs_test {
@@ -24,13 +24,8 @@ namespace {
 using namespace cli_testing;
 namespace fs = std::filesystem;
 
-std::string content(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 std::vector<double> matrix(const fs::path& file) {
-  const std::string bytes = content(file);
+  const std::string bytes = io_testing::bytes_of(file);
   REQUIRE(bytes.size() > 128);
   std::uint16_t length = 0;
   std::memcpy(&length, bytes.data() + 8, 2);
@@ -60,8 +55,7 @@ TEST_CASE("pairs of all vertices are straight lines in a square, and rows those 
   const int n = 9;
   const std::string input = folder.write("square.off", square_off(n));
   const std::string out = folder.at("d.npy");
-  const Outcome run = run_tool({"pairs", input, "--sources", "all", "--out", out, "--json"});
-  REQUIRE(run.code == 0);
+  const Outcome run = ran({"pairs", input, "--sources", "all", "--out", out, "--json"});
   CHECK(run.json()["rows"] == n * n);
   CHECK(run.json()["rows_solved"] == n * n);
   CHECK(run.json()["asymmetry"]["largest"] < 1e-5);
@@ -75,17 +69,15 @@ TEST_CASE("pairs of all vertices are straight lines in a square, and rows those 
 
   // The same bits as one field, with any number of threads.
   const std::string field = folder.at("field.csv");
-  REQUIRE(run_tool({"distance", input, "--source", "vertex:30", "--out", field}).code == 0);
-  const auto column = csv_column(content(field), "distance");
+  ran({"distance", input, "--source", "vertex:30", "--out", field});
+  const auto column = csv_column(io_testing::bytes_of(field), "distance");
   for (int b = 0; b < n * n; ++b)
     REQUIRE(static_cast<float>(column[static_cast<std::size_t>(b)]) ==
             static_cast<float>(d[static_cast<std::size_t>(30 * n * n + b)]));
-  const std::string bytes = content(out);
+  const std::string bytes = io_testing::bytes_of(out);
   for (const std::string threads : {"1", "3"}) {
-    REQUIRE(
-        run_tool({"pairs", input, "--sources", "all", "--out", out, "--threads", threads}).code ==
-        0);
-    CHECK(content(out) == bytes);
+    ran({"pairs", input, "--sources", "all", "--out", out, "--threads", threads});
+    CHECK(io_testing::bytes_of(out) == bytes);
   }
 }
 
@@ -93,16 +85,14 @@ TEST_CASE("pairs takes what farthest writes, and lists of vertices") {
   const testing::Folder folder;
   const std::string input = folder.write("square.off", square_off(9));
   const std::string landmarks = folder.at("landmarks.csv"), out = folder.at("d.npy");
-  REQUIRE(run_tool({"farthest", input, "--count", "5", "--source", "point:0.3,0.41,0", "--out",
-                    landmarks})
-              .code == 0);
+  ran({"farthest", input, "--count", "5", "--source", "point:0.3,0.41,0", "--out", landmarks});
   const std::string list = folder.write("some.txt", "# corners\n0\n8, \n80\n");
-  REQUIRE(run_tool({"pairs", input, "--sources", landmarks, "--targets", list, "--type", "float64",
-                    "--precision", "double", "--out", out})
-              .code == 0);
+  ran({"pairs", input, "--sources", landmarks, "--targets", list, "--type", "float64",
+       "--precision", "double", "--out", out});
   const auto d = matrix(out);
   REQUIRE(d.size() == 15);
-  const auto x = csv_column(content(landmarks), "x"), y = csv_column(content(landmarks), "y");
+  const auto x = csv_column(io_testing::bytes_of(landmarks), "x"),
+             y = csv_column(io_testing::bytes_of(landmarks), "y");
   const double corner[3][2] = {{0, 0}, {1, 0}, {1, 1}};
   for (std::size_t i = 0; i < 5; ++i)
     for (std::size_t j = 0; j < 3; ++j)
@@ -119,13 +109,12 @@ TEST_CASE("statistics and histograms and parcels are those of the matrix") {
                     histogram = folder.at("h.csv"), labels = folder.at("labels.txt"),
                     parcels = folder.at("p.csv");
   const Outcome run =
-      run_tool({"pairs", input, "--sources", "all", "--out", out, "--stats", stats, "--histogram",
-                histogram, "--bin-width", "0.2", "--bins", "5", "--json"});
-  REQUIRE(run.code == 0);
+      ran({"pairs", input, "--sources", "all", "--out", out, "--stats", stats, "--histogram",
+           histogram, "--bin-width", "0.2", "--bins", "5", "--json"});
   const auto d = matrix(out);
-  const auto mean = csv_column(content(stats), "mean"),
-             most = csv_column(content(stats), "largest"),
-             far = csv_column(content(stats), "farthest");
+  const auto mean = csv_column(io_testing::bytes_of(stats), "mean"),
+             most = csv_column(io_testing::bytes_of(stats), "largest"),
+             far = csv_column(io_testing::bytes_of(stats), "farthest");
   std::vector<double> counts(5, 0);
   double diameter = 0;
   for (std::size_t i = 0; i < many; ++i) {
@@ -141,7 +130,7 @@ TEST_CASE("statistics and histograms and parcels are those of the matrix") {
     CHECK(most[i] == Approx(largest));
     CHECK(d[i * many + static_cast<std::size_t>(far[i])] == Approx(largest));
   }
-  CHECK(csv_column(content(histogram), "count") == counts);
+  CHECK(csv_column(io_testing::bytes_of(histogram), "count") == counts);
   CHECK(run.json()["diameter"] == Approx(diameter));
   CHECK(diameter == Approx(std::sqrt(2.)).epsilon(1e-5));
 
@@ -149,11 +138,10 @@ TEST_CASE("statistics and histograms and parcels are those of the matrix") {
   std::string text;
   for (int v = 0; v < n * n; ++v) text += v % n == 0 ? "-1\n" : v / n < n / 2 ? "7\n" : "3\n";
   std::ofstream(labels) << text;
-  REQUIRE(
-      run_tool({"pairs", input, "--sources", "all", "--labels", labels, "--out", parcels}).code ==
-      0);
-  CHECK(content(parcels).substr(0, 10) == "label,3,7\n");
-  const auto to3 = csv_column(content(parcels), "3"), to7 = csv_column(content(parcels), "7");
+  ran({"pairs", input, "--sources", "all", "--labels", labels, "--out", parcels});
+  CHECK(io_testing::bytes_of(parcels).substr(0, 10) == "label,3,7\n");
+  const auto to3 = csv_column(io_testing::bytes_of(parcels), "3"),
+             to7 = csv_column(io_testing::bytes_of(parcels), "7");
   for (const bool lower : {false, true})
     for (const bool to_lower : {false, true}) {
       double sum = 0;
@@ -193,10 +181,9 @@ TEST_CASE("rows by a device are its fields, and go on where they were") {
   const auto d = matrix(out);
   REQUIRE(d.size() == static_cast<std::size_t>(3 * n * n));
   for (const int a : {0, 17, 40, 80}) {
-    REQUIRE(run_tool({"distance", input, "--source", "vertex:" + std::to_string(a), "--executor",
-                      "gl", "--quiet", "--out", field})
-                .code == 0);
-    const auto column = csv_column(content(field), "distance");
+    ran({"distance", input, "--source", "vertex:" + std::to_string(a), "--executor", "gl",
+         "--quiet", "--out", field});
+    const auto column = csv_column(io_testing::bytes_of(field), "distance");
     for (const std::size_t c : {0UL, 1UL, 2UL})
       CHECK(static_cast<float>(d[3 * static_cast<std::size_t>(a) + c]) ==
             static_cast<float>(column[std::array{80UL, 7UL, 0UL}[c]]));
@@ -208,11 +195,7 @@ TEST_CASE("rows by a device are its fields, and go on where they were") {
     std::vector<std::string> words = {"pairs", input, "--sources", "all", "--executor", "gl"};
     if (more[0] != "--radius") words.insert(words.end(), {"--out", out});
     words.insert(words.end(), more.begin(), more.end());
-    const Outcome refused = run_tool(words);
-    CAPTURE(refused.err);
-    CHECK(refused.code == 2);
-    CHECK(refused.complaints() == 1);
-    CHECK(refused.err.find(text) != std::string::npos);
+    check_refused(words, 2, text);
   }
 }
 
@@ -226,9 +209,8 @@ TEST_CASE("pairs go around what is masked") {
   const std::string mask = folder.write("mask.txt", closed), out = folder.at("d.npy");
   const std::string ends = folder.write("ends.txt", "0\n8\n"),
                     inside = folder.write("in.txt", "4\n");
-  REQUIRE(run_tool({"pairs", input, "--sources", ends, "--targets", ends, "--mask",
-                    "vertices:" + mask, "--precision", "double", "--type", "float64", "--out", out})
-              .code == 0);
+  ran({"pairs", input, "--sources", ends, "--targets", ends, "--mask", "vertices:" + mask,
+       "--precision", "double", "--type", "float64", "--out", out});
   const double around = (std::sqrt(45.) + 1 + std::sqrt(2.) + std::sqrt(34.)) / 8;
   const auto d = matrix(out);
   REQUIRE(d.size() == 4);
@@ -237,10 +219,9 @@ TEST_CASE("pairs go around what is masked") {
   CHECK(d[2] == Approx(around).epsilon(1e-9));
   // Within a radius that leads through the mask, but not around it, nothing but the ends.
   const std::string near = folder.at("near.mtx");
-  REQUIRE(run_tool({"pairs", input, "--sources", ends, "--targets", ends, "--mask",
-                    "vertices:" + mask, "--radius", "1.5", "--out", near})
-              .code == 0);
-  CHECK(content(near).find("\n2 2 2\n1 1 0\n2 2 0\n") != std::string::npos);
+  ran({"pairs", input, "--sources", ends, "--targets", ends, "--mask", "vertices:" + mask,
+       "--radius", "1.5", "--out", near});
+  CHECK(io_testing::bytes_of(near).find("\n2 2 2\n1 1 0\n2 2 0\n") != std::string::npos);
 
   for (const auto& [kind, text] :
        {std::pair<std::string, std::string>{"vertices:" + mask, "is masked"},
@@ -264,9 +245,8 @@ TEST_CASE("a matrix killed twenty times is bit for bit one that was not") {
                                     "--type", "float16", "--symmetric", "--threads",
                                     "2",      "--out",   out,           "--json"};
   };
-  const Outcome undisturbed = run_tool(command(whole));
-  REQUIRE(undisturbed.code == 0);
-  const std::string expected = content(whole);
+  const Outcome undisturbed = ran(command(whole));
+  const std::string expected = io_testing::bytes_of(whole);
   const int about = static_cast<int>(1000 * undisturbed.json()["seconds"]["solve"].get<double>());
   std::mt19937 random(1);
   int kills = 0, kept = 0;
@@ -275,7 +255,7 @@ TEST_CASE("a matrix killed twenty times is bit for bit one that was not") {
     const Outcome run = run_tool_and_kill(command(parts), wait);
     if (run.code != 0) REQUIRE(run.code == 128 + 9);
     if (fs::exists(parts)) {  // it was through before: with the file, if not with all that it says
-      REQUIRE(content(parts) == expected);
+      REQUIRE(io_testing::bytes_of(parts) == expected);
       fs::remove(parts);
       continue;
     }
@@ -283,10 +263,9 @@ TEST_CASE("a matrix killed twenty times is bit for bit one that was not") {
     ++kills;
     kept += fs::exists(parts + ".journal");
   }
-  const Outcome last = run_tool(command(parts));
-  REQUIRE(last.code == 0);
+  const Outcome last = ran(command(parts));
   CHECK(kept > 0);
-  CHECK(content(parts) == expected);
+  CHECK(io_testing::bytes_of(parts) == expected);
   CHECK(last.json()["asymmetry"] == undisturbed.json()["asymmetry"]);
   CHECK(folder.files() == 3);
 }
@@ -309,7 +288,7 @@ TEST_CASE("pairs write HDF5 that h5py reads, whole after any number of kills") {
     return;
   }
   REQUIRE(undisturbed.code == 0);
-  REQUIRE(run_tool(command(plain)).code == 0);
+  ran(command(plain));
   CHECK(folder.files() == 3);
   CHECK(fs::file_size(whole) < fs::file_size(plain));
   if (const std::string python = "/usr/bin/python3 -c 'import h5py, numpy";
@@ -329,12 +308,12 @@ TEST_CASE("pairs write HDF5 that h5py reads, whole after any number of kills") {
     if (run_tool_and_kill(command(parts), wait).code != 0) {
       ++kills;
     } else {
-      REQUIRE(content(parts) == content(whole));
+      REQUIRE(io_testing::bytes_of(parts) == io_testing::bytes_of(whole));
       fs::remove(parts);
     }
   }
-  REQUIRE(run_tool(command(parts)).code == 0);
-  CHECK(content(parts) == content(whole));
+  ran(command(parts));
+  CHECK(io_testing::bytes_of(parts) == io_testing::bytes_of(whole));
   CHECK(folder.files() == 4);
 
   // A disk that gets full while rows are solved, twice.
@@ -346,10 +325,9 @@ TEST_CASE("pairs write HDF5 that h5py reads, whole after any number of kills") {
     CHECK_FALSE(fs::exists(parts));
     CHECK(fs::exists(parts + ".journal"));
   }
-  const Outcome rest = run_tool(command(parts));
-  REQUIRE(rest.code == 0);
+  const Outcome rest = ran(command(parts));
   CHECK(rest.json()["rows_solved"] < 1600);
-  CHECK(content(parts) == content(whole));
+  CHECK(io_testing::bytes_of(parts) == io_testing::bytes_of(whole));
 }
 
 TEST_CASE("a disk that gets full loses nothing, and room or not is said in one line") {
@@ -360,7 +338,7 @@ TEST_CASE("a disk that gets full loses nothing, and room or not is said in one l
     return std::vector<std::string>{"pairs", input,     "--sources", "all", "--threads",
                                     "2",     "--quiet", "--out",     file};
   };
-  REQUIRE(run_tool(command(whole)).code == 0);
+  ran(command(whole));
   const Outcome full = run_tool_with_small_files(command(out), 5'000'000);
   CHECK(full.code == 1);
   CHECK(full.complaints() == 1);
@@ -370,11 +348,10 @@ TEST_CASE("a disk that gets full loses nothing, and room or not is said in one l
   auto again = command(out);
   again.erase(std::find(again.begin(), again.end(), "--quiet"));
   again.push_back("--json");
-  const Outcome rest = run_tool(again);
-  REQUIRE(rest.code == 0);
+  const Outcome rest = ran(again);
   CHECK(rest.json()["blocks_kept"] > 0);
   CHECK(rest.json()["rows_solved"] < 1600);
-  CHECK(content(out) == content(whole));
+  CHECK(io_testing::bytes_of(out) == io_testing::bytes_of(whole));
 }
 
 TEST_CASE("pairs refuses what makes no sense, in one line") {
@@ -383,13 +360,8 @@ TEST_CASE("pairs refuses what makes no sense, in one line") {
   const std::string out = folder.at("d.npy");
   const std::string beyond = folder.write("beyond.txt", "0\n36\n");
   const std::string few = folder.write("few.txt", "1\n2\n");
-  const auto refused = [&](std::vector<std::string> more, int code, const std::string& text) {
-    more.insert(more.begin(), {"pairs", input});
-    const Outcome run = run_tool(more);
-    CAPTURE(run.err, text);
-    CHECK(run.code == code);
-    CHECK(run.complaints() == 1);
-    CHECK(run.err.find(text) != std::string::npos);
+  const auto refused = [&](const Words& more, int code, const std::string& text) {
+    check_refused(joined({"pairs", input}, more), code, text);
   };
   refused({"--sources", "all", "--targets", beyond, "--out", out}, 3, "beyond.txt:2: vertex 36");
   refused({"--sources", beyond, "--out", out}, 3, "beyond.txt:2: vertex 36");

@@ -17,15 +17,7 @@ namespace picture_test {
 using namespace cli_testing;
 using io_testing::Folder;
 
-namespace {
-
-std::vector<std::string> joined(std::vector<std::string> first,
-                                const std::vector<std::string>& then) {
-  first.insert(first.end(), then.begin(), then.end());
-  return first;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 #ifdef PLEXWAY_HAS_RENDER
 
@@ -149,10 +141,8 @@ TEST_CASE("without EGL a picture is exit code 4, and it says what to install") {
 #else
 
 TEST_CASE("a build without pictures says so") {
-  const auto run =
-      run_tool({"distance", sample("torus.obj"), "--source", "vertex:0", "--picture", "a.png"});
-  CHECK(run.code == 4);
-  CHECK(run.err.find("libpng-dev") != std::string::npos);
+  check_refused({"distance", sample("torus.obj"), "--source", "vertex:0", "--picture", "a.png"}, 4,
+                "libpng-dev");
 }
 
 #endif

@@ -34,9 +34,7 @@ TEST_CASE("poisson writes darts on a square that keep their distance") {
   const Folder folder;
   const std::string input = folder.write("square.off", square_off(30)).string();
   const std::string out = (folder.path() / "darts.csv").string();
-  const auto run = run_tool({"poisson", input, "--radius", "0.1", "--out", out, "--json"});
-  INFO(run.err);
-  REQUIRE(run.code == 0);
+  const auto run = ran({"poisson", input, "--radius", "0.1", "--out", out, "--json"});
   const auto darts = run.json()["darts"].get<std::size_t>();
   CHECK(run.json()["maximal"].get<bool>());
   CHECK(csv_column(bytes_of(out), "x").size() == darts);
@@ -57,9 +55,7 @@ TEST_CASE("poisson takes solids and counts and writes every format") {
   for (const std::string extension : {".csv", ".npy", ".obj", ".ply"}) {
     const std::string out = (folder.path() / ("darts" + extension)).string();
     const auto run =
-        run_tool({"poisson", sample("elbow.mesh"), "--count", "40", "--out", out, "--json"});
-    INFO(extension << ": " << run.err);
-    REQUIRE(run.code == 0);
+        ran({"poisson", sample("elbow.mesh"), "--count", "40", "--out", out, "--json"});
     CHECK(run.json()["darts"] == 40);
     CHECK(std::filesystem::file_size(out) >= 40 * 3);
     if (extension == ".npy") CHECK(std::filesystem::file_size(out) == 128 + 40 * 3 * 8);
@@ -70,10 +66,8 @@ TEST_CASE("cvt lowers the energy and writes cells and a surface that reads back"
   const Folder folder;
   const std::string cells = (folder.path() / "cells.csv").string(),
                     dual = (folder.path() / "dual.obj").string();
-  const auto run = run_tool({"cvt", sample("torus.obj"), "--count", "60", "--iterations", "15",
-                             "--cells", cells, "--dual", dual, "--json"});
-  INFO(run.err);
-  REQUIRE(run.code == 0);
+  const auto run = ran({"cvt", sample("torus.obj"), "--count", "60", "--iterations", "15",
+                        "--cells", cells, "--dual", dual, "--json"});
   const auto steps = run.json()["steps"];
   for (std::size_t n = 1; n < steps.size(); ++n)
     CHECK(steps[n]["energy"].get<double>() < steps[n - 1]["energy"].get<double>());
@@ -89,10 +83,7 @@ TEST_CASE("farthest starts where it is told and its distances fall") {
   const Folder folder;
   const std::string input = folder.write("square.off", square_off(20)).string();
   const std::string out = (folder.path() / "points.csv").string();
-  const auto run =
-      run_tool({"farthest", input, "--count", "20", "--source", "vertex:0", "--out", out});
-  INFO(run.err);
-  REQUIRE(run.code == 0);
+  const auto run = ran({"farthest", input, "--count", "20", "--source", "vertex:0", "--out", out});
   const auto distance = csv_column(bytes_of(out), "distance");
   REQUIRE(distance.size() == 20);
   CHECK(distance[1] == Approx(std::sqrt(2.)));
@@ -103,10 +94,8 @@ TEST_CASE("pairs writes a symmetric matrix") {
   const Folder folder;
   const std::string input = folder.write("square.off", square_off(20)).string();
   const std::string out = (folder.path() / "matrix.csv").string();
-  const auto run = run_tool({"pairs", input, "-s", "vertex:0", "-s", "vertex:399", "-s",
-                             "point:0.5,0.5,0", "--out", out});
-  INFO(run.err);
-  REQUIRE(run.code == 0);
+  const auto run = ran({"pairs", input, "-s", "vertex:0", "-s", "vertex:399", "-s",
+                        "point:0.5,0.5,0", "--out", out});
   std::istringstream in(bytes_of(out));
   double d[3][3];
   char comma = 0;
@@ -120,13 +109,7 @@ TEST_CASE("pairs writes a symmetric matrix") {
 TEST_CASE("commands that choose points say what is wrong with what they are given") {
   const Folder folder;
   const std::string torus = sample("torus.obj");
-  const auto fails = [&](const std::vector<std::string>& arguments, int code) {
-    const auto run = run_tool(arguments);
-    INFO(arguments[0] << ": " << run.err);
-    CHECK(run.code == code);
-    CHECK(run.complaints() == 1);
-    CHECK(run.out.empty());
-  };
+  const auto fails = [&](const Words& arguments, int code) { check_refused(arguments, code); };
   fails({"poisson", torus}, 2);
   fails({"poisson", torus, "--radius", "0.1", "--count", "5"}, 2);
   fails({"poisson", torus, "--radius", "-1"}, 2);

@@ -19,9 +19,8 @@ using io_testing::Folder;
 namespace {
 
 // Distances on a square of n x n vertices, row by row, against a closed form.
-double largest_error(const std::string& csv, int n,
+double largest_error(const std::vector<double>& found, int n,
                      const std::function<double(double, double)>& rule) {
-  const auto found = csv_column(csv, "distance");
   REQUIRE(found.size() == static_cast<std::size_t>(n * n));
   double worst = 0;
   for (std::size_t v = 0; v < found.size(); ++v) {
@@ -76,11 +75,9 @@ TEST_CASE("the tool starts fields from lines, triangles, circles and sets") {
   };
   for (const auto& [source, rule, bound] : cases) {
     const std::string precision = bound < 1e-9 ? "double" : "float";
-    const auto run = run_tool({"distance", square, "--source", source, "--out", "-", "--quiet",
-                               "--precision", precision});
-    INFO(source << ": " << run.err);
-    REQUIRE(run.code == 0);
-    CHECK(largest_error(run.out, n, rule) < bound);
+    INFO(source);
+    CHECK(largest_error(distances({square, "--source", source, "--precision", precision}), n,
+                        rule) < bound);
   }
   const auto precision = [&](const std::string& source, const std::string& accuracy) {
     return run_tool({"distance", square, "--source", source, "--accuracy", accuracy, "--json"})
@@ -90,9 +87,8 @@ TEST_CASE("the tool starts fields from lines, triangles, circles and sets") {
   CHECK(precision("boundary", "fast") == "double");
   CHECK(precision("boundary", "exact") == "double");
   CHECK(precision("vertex:0", "fast") == "float");
-  const auto both = run_tool({"distance", square, "--source", "boundary+0.3", "--source",
-                              "vertex:220", "--out", "-", "--executor", "auto", "--quiet"});
-  REQUIRE(both.code == 0);
+  const auto both = ran({"distance", square, "--source", "boundary+0.3", "--source", "vertex:220",
+                         "--out", "-", "--executor", "auto", "--quiet"});
   const auto label = csv_column(both.out, "label");
   CHECK(label[220] == 1);
   CHECK(label[0] == 0);
@@ -100,10 +96,7 @@ TEST_CASE("the tool starts fields from lines, triangles, circles and sets") {
 
 TEST_CASE("the boundary of a solid and of a wireframe, and one of its edges") {
   const auto from = [](const std::string& mesh, const std::string& source) {
-    const auto run = run_tool({"distance", mesh, "-s", source, "--out", "-", "--quiet"});
-    INFO(run.err);
-    REQUIRE(run.code == 0);
-    return csv_column(run.out, "distance");
+    return distances({mesh, "-s", source});
   };
   // The L of [0, 2]^2 less [1, 2]^2, from z = 0 to 1: its six walls.
   const std::string elbow = sample("elbow.mesh");
@@ -137,11 +130,7 @@ TEST_CASE("a byte order mark before numbers, points or a grid is passed over") {
                                    "POINTS 3 float\n0 0 0 3 0 0 0 4 0\nPOLYGONS 1 4\n3 0 1 2\n");
   const std::string sources = folder.write("sources.txt", mark + "1\r\n");
   for (const std::string& file : {points, grid}) {
-    const auto run =
-        run_tool({"distance", file, "-s", "vertices:" + sources, "--quiet", "--out", "-"});
-    INFO(file << ": " << run.err);
-    REQUIRE(run.code == 0);
-    const auto distance = csv_column(run.out, "distance");
+    const auto distance = distances({file, "-s", "vertices:" + sources});
     REQUIRE(distance.size() == 3);
     CHECK(distance[0] == Approx(3));
     CHECK(distance[1] == 0);
@@ -179,13 +168,7 @@ TEST_CASE("sources that are none or not there are told by name") {
       {{sample("two_parts.obj"), "--source", "segment:-9,0,0,9,0,0"}, 3, "there is no path"},
   };
   for (const auto& [arguments, code, why] : cases) {
-    std::vector<std::string> all = {"distance"};
-    all.insert(all.end(), arguments.begin(), arguments.end());
-    const auto run = run_tool(all);
-    INFO(arguments.back() << ": " << run.err);
-    CHECK(run.code == code);
-    CHECK(run.err.find(why) != std::string::npos);
-    CHECK(run.complaints() == 1);
+    check_refused(joined({"distance"}, arguments), code, why);
   }
 }
 
@@ -193,10 +176,8 @@ TEST_CASE("isolines of a field go into files") {
   const Folder folder;
   const std::string square = folder.write("square.off", square_off(11)).string();
   const std::string out = (folder.path() / "lines.obj").string();
-  const auto run = run_tool({"distance", square, "--source", "segment:0,0,0,0,1,0",
-                             "--isoline-step", "0.3", "--isolines-out", out, "--quiet"});
-  INFO(run.err);
-  REQUIRE(run.code == 0);
+  const auto run = ran({"distance", square, "--source", "segment:0,0,0,0,1,0", "--isoline-step",
+                        "0.3", "--isolines-out", out, "--quiet"});
   const auto lines = plexway::io::read_edges(out);
   double length = 0;
   for (const auto& [a, b] : lines.edges)
@@ -219,9 +200,8 @@ TEST_CASE("isolines of a field go into files") {
   CHECK(coarse.out.find("written  " + out) != std::string::npos);
   CHECK(coarse.err.find("no distance is as large as the step") != std::string::npos);
   // On clouds over their sheet.
-  REQUIRE(run_tool({"distance", sample("roll.xyz"), "-s", "vertex:0", "--isoline-step", "1",
-                    "--isolines-out", out, "--quiet"})
-              .code == 0);
+  ran({"distance", sample("roll.xyz"), "-s", "vertex:0", "--isoline-step", "1", "--isolines-out",
+       out, "--quiet"});
   CHECK(plexway::io::read_edges(out).edges.size() > 100);
 }
 
@@ -229,10 +209,8 @@ TEST_CASE("isosurfaces of a solid go into files") {
   const Folder folder;
   const std::string elbow = sample("elbow.mesh");
   const std::string out = (folder.path() / "shells.ply").string();
-  const auto run = run_tool({"distance", elbow, "-s", "vertex:0", "--isoline-step", "0.4",
-                             "--isolines-out", out, "--quiet"});
-  INFO(run.err);
-  REQUIRE(run.code == 0);
+  const auto run = ran({"distance", elbow, "-s", "vertex:0", "--isoline-step", "0.4",
+                        "--isolines-out", out, "--quiet"});
   const auto shells = plexway::io::read_triangles(out);
   REQUIRE(!shells.triangles.empty());
   // The first of them is a piece of a sphere.
@@ -242,10 +220,9 @@ TEST_CASE("isosurfaces of a solid go into files") {
     nearest = std::min(nearest, std::hypot(p[0] - source[0], p[1] - source[1], p[2] - source[2]));
   CHECK(nearest > 0.37);  // linear between corners, so a chord
   CHECK(nearest < 0.4);
-  const auto none = run_tool({"distance", elbow, "-s", "vertex:0", "--isoline-step", "9",
-                              "--isolines-out", folder.at("none.glb")});
-  CHECK(none.code == 2);
-  CHECK(none.err.find("no distance is as large as the step") != std::string::npos);
+  check_refused({"distance", elbow, "-s", "vertex:0", "--isoline-step", "9", "--isolines-out",
+                 folder.at("none.glb")},
+                2, "no distance is as large as the step");
   const std::string lines = (folder.path() / "lines.json").string();
   const auto refused = run_tool(
       {"distance", elbow, "-s", "vertex:0", "--isoline-step", "0.4", "--isolines-out", lines});

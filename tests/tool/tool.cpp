@@ -128,11 +128,43 @@ std::size_t Outcome::complaints() const {
   return static_cast<std::size_t>(std::count(err.begin(), err.end(), '\n'));
 }
 
-Outcome run_tool(const std::vector<std::string>& arguments) {
+Outcome run_tool(const Words& arguments) {
   Channel out, err;
   out.make_pipe();
   err.make_pipe();
   return run(arguments, out, err);
+}
+
+Outcome ran(const Words& arguments) {
+  const Outcome run = run_tool(arguments);
+  CAPTURE(arguments, run.err);
+  REQUIRE(run.code == 0);
+  return run;
+}
+
+std::vector<double> distances(const Words& arguments) {
+  const Outcome run = ran(joined(joined({"distance"}, arguments), {"--quiet", "--out", "-"}));
+  CHECK(run.err.empty());
+  return csv_column(run.out, "distance");
+}
+
+void check_refused(const Words& arguments, int code, const std::string& part) {
+  CAPTURE(arguments);
+  check_refused(run_tool(arguments), code, part);
+}
+
+void check_refused(const Outcome& run, int code, const std::string& part) {
+  INFO(run.err);
+  CHECK(run.code == code);
+  CHECK(run.out.empty());
+  CHECK(run.complaints() == 1);
+  CHECK(run.err.starts_with("plexway: error: "));
+  CHECK_THAT(run.err, Catch::Contains(part));
+}
+
+Words joined(Words first, const Words& then) {
+  first.insert(first.end(), then.begin(), then.end());
+  return first;
 }
 
 Outcome run_program(const std::vector<std::string>& words, std::size_t file_bytes) {
@@ -142,7 +174,7 @@ Outcome run_program(const std::vector<std::string>& words, std::size_t file_byte
   return run_words(words, out, err, {.file_bytes = file_bytes});
 }
 
-Outcome run_tool_into(const std::string& file, const std::vector<std::string>& arguments) {
+Outcome run_tool_into(const std::string& file, const Words& arguments) {
   Channel out(-1, ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644));
   REQUIRE(out.write >= 0);
   Channel err;
@@ -150,7 +182,7 @@ Outcome run_tool_into(const std::string& file, const std::vector<std::string>& a
   return run(arguments, out, err);
 }
 
-Outcome run_tool_into_closed_pipe(const std::vector<std::string>& arguments) {
+Outcome run_tool_into_closed_pipe(const Words& arguments) {
   Channel out, err;
   out.make_pipe();
   Channel::close_end(out.read);
@@ -158,21 +190,21 @@ Outcome run_tool_into_closed_pipe(const std::vector<std::string>& arguments) {
   return run(arguments, out, err);
 }
 
-Outcome run_tool_and_kill(const std::vector<std::string>& arguments, int milliseconds) {
+Outcome run_tool_and_kill(const Words& arguments, int milliseconds) {
   Channel out, err;
   out.make_pipe();
   err.make_pipe();
   return run(arguments, out, err, {.milliseconds = milliseconds});
 }
 
-Outcome run_tool_with_small_files(const std::vector<std::string>& arguments, std::size_t bytes) {
+Outcome run_tool_with_small_files(const Words& arguments, std::size_t bytes) {
   Channel out, err;
   out.make_pipe();
   err.make_pipe();
   return run(arguments, out, err, {.file_bytes = bytes});
 }
 
-Outcome run_tool_on_terminal(const std::vector<std::string>& arguments) {
+Outcome run_tool_on_terminal(const Words& arguments) {
   Channel out, err;
   out.make_pipe();
   err.make_terminal();

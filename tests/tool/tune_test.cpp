@@ -16,11 +16,6 @@ using io_testing::Folder;
 
 namespace {
 
-std::string contents(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 // The sample ell.obj, four times as wide, and what is exact from its vertex 24 at (0, 2): the other
 // arm is hidden by the corner, now at (4, 1).
 std::string write_ell(const Folder& folder) {
@@ -45,10 +40,8 @@ std::string write_ell(const Folder& folder) {
   return folder.write("ell.obj", mesh.str()).string();
 }
 
-Outcome tune(const std::string& mesh, const std::vector<std::string>& more) {
-  std::vector<std::string> command = {"tune", mesh, "--json", "--quiet"};
-  command.insert(command.end(), more.begin(), more.end());
-  return run_tool(command);
+Outcome tune(const std::string& mesh, const Words& more) {
+  return run_tool(joined({"tune", mesh, "--json", "--quiet"}, more));
 }
 
 // Everything but how long it took.
@@ -60,13 +53,8 @@ nlohmann::json without_times(const Outcome& run) {
   return json;
 }
 
-void check_tune_refused(const std::string& mesh, const std::vector<std::string>& more, int code,
-                        const char* cause) {
-  const auto run = tune(mesh, more);
-  INFO(run.err);
-  CHECK(run.code == code);
-  CHECK(run.complaints() == 1);
-  CHECK(run.err.find(cause) != std::string::npos);
+void check_tune_refused(const std::string& mesh, const Words& more, int code, const char* cause) {
+  check_refused(tune(mesh, more), code, cause);
 }
 
 }  // namespace
@@ -79,20 +67,18 @@ TEST_CASE("tune makes a table better, and the tool takes it") {
   CHECK(json["complete"] == true);
   CHECK(json["evaluated"] == 150);
   CHECK(json["improvement"].get<double>() >= 0.15);
-  const auto found = nlohmann::json::parse(contents(table));
+  const auto found = nlohmann::json::parse(io_testing::bytes_of(table));
   CHECK(found["share"] == json["found"]["share"]);
   CHECK(found["provenance"]["seed"] == 1);
   CHECK(found["provenance"]["mean_error"] == json["mean_error"]);
-  CHECK(contents((folder.path() / "table.inc").string()).find("ProbeTable table = {") !=
+  CHECK(io_testing::bytes_of((folder.path() / "table.inc").string()).find("ProbeTable table = {") !=
         std::string::npos);
 
   // What `bench` measures with it is what was promised.
-  const auto bench = run_tool({"bench", mesh, "--source", "vertex:24", "--truth",
-                               (folder.path() / "ell.v24.txt").string(), "--visibility", "tuned",
-                               "--triangulation", "input", "--table", table, "--json", "--repeats",
-                               "1", "--quiet"});
-  INFO(bench.err);
-  REQUIRE(bench.code == 0);
+  const auto bench =
+      ran({"bench", mesh, "--source", "vertex:24", "--truth",
+           (folder.path() / "ell.v24.txt").string(), "--visibility", "tuned", "--triangulation",
+           "input", "--table", table, "--json", "--repeats", "1", "--quiet"});
   CHECK(bench.json()["mean"].get<double>() == Approx(json["mean_error"].get<double>()));
 
   // Where it began it goes on.
@@ -137,13 +123,13 @@ TEST_CASE("tune fits the thresholds of saddles") {
       without_times(tune(mesh, {"--what", "saddles", "--from", "standard", "--evaluations", "10",
                                 "--fitness", "relative", "--triangulation", "auto", "--out", out}));
   CHECK(json["mean_error"].get<double>() <= json["baselines"]["standard"].get<double>());
-  CHECK(nlohmann::json::parse(contents(out))["kind"] == "plexway saddle thresholds");
+  CHECK(nlohmann::json::parse(io_testing::bytes_of(out))["kind"] == "plexway saddle thresholds");
 }
 
 TEST_CASE("tune says before it begins what it will not write") {
   const Folder folder;
   const std::string mesh = write_ell(folder), truth = folder.at("ell.v24.txt");
-  const std::string before = contents(mesh), exact = contents(truth);
+  const std::string before = io_testing::bytes_of(mesh), exact = io_testing::bytes_of(truth);
   const auto refused = [&](const std::vector<std::string>& more, int code, const char* cause) {
     check_tune_refused(mesh, more, code, cause);
   };
@@ -153,8 +139,8 @@ TEST_CASE("tune says before it begins what it will not write") {
   refused({"--out", folder.at("a.json"), "--checkpoint", folder.at("a.json")}, 2, "two results");
   refused({"--out", folder.at("none/a.json")}, 1, "there is no folder");
   refused({"--cpp", folder.path()}, 1, "is a directory");
-  CHECK(contents(mesh) == before);
-  CHECK(contents(truth) == exact);
+  CHECK(io_testing::bytes_of(mesh) == before);
+  CHECK(io_testing::bytes_of(truth) == exact);
 }
 
 TEST_CASE("tune refuses bad input with one line") {
@@ -201,11 +187,9 @@ TEST_CASE("a table goes with the policy it is for") {
       folder.write("table.json",
                    R"({"kind": "plexway probe table", "slender": 5, "uneven": 4, "low": 0.5,
           "share": [1, 1, 1, 1, 1, 1]})");
-  const auto solve = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> command = {"distance", mesh,    "--source", "vertex:24",
-                                        "--quiet",  "--out", "-"};
-    command.insert(command.end(), more.begin(), more.end());
-    return run_tool(command);
+  const auto solve = [&](const Words& more) {
+    return run_tool(
+        joined({"distance", mesh, "--source", "vertex:24", "--quiet", "--out", "-"}, more));
   };
   CHECK(solve({"--table", table}).code == 2);
   const auto tuned = solve({"--visibility", "tuned", "--table", table});

@@ -198,35 +198,15 @@ TEST_CASE("unreached: inf in every format, -1 in glTF, as the page of formats sa
     }
 }
 
-TEST_CASE("unreached: what is written of it is what the tool reads as that") {
-  // As the file of truth of `bench`: nothing is mismatched there.
-  const Folder folder;
-  const std::string surface = folder.write("surface.obj", square_and_triangle).string();
-  const std::string file = folder.at("d.npy").string();
-  REQUIRE(run_tool({"distance", surface, "-s", "vertex:0", "-q", "--out", file}).code == 0);
-  std::string truth;
-  for (const double d : in_npy(bytes_of(file)))
-    truth += std::isinf(d) ? "inf\n" : std::to_string(d) + "\n";
-  const auto run = run_tool({"bench", surface, "-s", "vertex:0", "--repeats", "1", "--json",
-                             "--truth", folder.write("truth.txt", truth).string()});
-  INFO(run.err);
-  REQUIRE(run.code == 0);
-  CHECK(run.out.find("\"mismatched_unreached\": 0") != run.out.npos);
-}
-
 TEST_CASE("unreached: matrices and paths") {
   const Folder folder;
   const std::string surface = folder.write("surface.obj", square_and_triangle).string();
   const std::string few = folder.at("few.csv").string();
-  REQUIRE(
-      run_tool({"pairs", surface, "-s", "vertex:0", "-s", "vertex:4", "-q", "--out", few}).code ==
-      0);
+  ran({"pairs", surface, "-s", "vertex:0", "-s", "vertex:4", "-q", "--out", few});
   CHECK(bytes_of(few).find("inf") != std::string::npos);
   for (const char* type : {"float16", "float32", "float64"}) {
     const std::string all = folder.at("all.npy").string();
-    REQUIRE(
-        run_tool({"pairs", surface, "--sources", "all", "--type", type, "-q", "--out", all}).code ==
-        0);
+    ran({"pairs", surface, "--sources", "all", "--type", type, "-q", "--out", all});
     const std::string bytes = bytes_of(all);
     const std::size_t data = 10 + number_at<std::uint16_t>(bytes, 8);
     const std::string name = type;
@@ -245,10 +225,8 @@ TEST_CASE("unreached: matrices and paths") {
     }
   }
   const std::string path = folder.at("p.json").string();
-  const auto run = run_tool({"path", surface, "--from", "vertex:0", "--to", "vertex:4", "--to",
-                             "vertex:2", "--json", "--out", path});
-  INFO(run.err);
-  REQUIRE(run.code == 0);
+  const auto run = ran({"path", surface, "--from", "vertex:0", "--to", "vertex:4", "--to",
+                        "vertex:2", "--json", "--out", path});
   const Json paths = run.json()["paths"];
   CHECK(paths[0]["length"].is_null());
   CHECK(paths[1]["length"].get<double>() == Approx(std::sqrt(2)));

@@ -1,7 +1,14 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstddef>
+#include <string>
 
 #include <plexway/error.hpp>
+#include <plexway/solve.hpp>
 
+#include "data/long_strips.hpp"
+#include "data/shapes.hpp"
 #include "labels/awkward_surfaces.hpp"
 #include "windows/windows_solving.hpp"
 
@@ -142,6 +149,62 @@ TEMPLATE_TEST_CASE("windows: a callback sees them go and may stop them", "", flo
                     Cancelled);
     solve_windows(mesh, {&corner, 1}, accuracy, {}, workspace, field);
     CHECK(field.distance.back() == Approx(std::sqrt(2.)).epsilon(1e-3));
+  }
+}
+
+TEMPLATE_TEST_CASE("merged windows hold few bytes a vertex", "[windows]", float, double) {
+  const auto shape = samples::bumpy(50);
+  const TriangleMesh<TestType> mesh(shape.points, shape.faces);
+  Workspace<TestType> workspace;
+  DistanceField<TestType> field;
+  PropagateOptions options;
+  options.accuracy = Accuracy::accurate();
+  std::size_t first = 0;
+  for (const Index source : {Index{0}, Index{7}, Index{20000}}) {
+    solve(Serial{}, mesh, PointSource::at(source), options, workspace, field);
+    if (first == 0) first = workspace.bytes();
+  }
+  const double bytes =
+      static_cast<double>(workspace.bytes()) / static_cast<double>(mesh.vertex_count());
+  CAPTURE(bytes);
+  CHECK(bytes < (sizeof(TestType) == 4 ? 36 : 48));
+  CHECK(2 * workspace.bytes() < 3 * first);
+}
+
+namespace {
+
+struct Off {
+  double mean = 0, worst = 0;
+};
+
+/// How far off distances in a flat strip are that is so many edges long.
+template <class Real>
+Off off_in(const TriangleMesh<Real>& mesh, const samples::LongStrip& strip) {
+  const auto distance = solve_windows(mesh, {PointSource::at(0)}, Accuracy::accurate());
+  Off off;
+  for (Index v = 1; v < strip.vertices(); ++v) {
+    const double e = std::abs(distance[v] / strip.between(0, v) - 1);
+    off.mean += e / (strip.vertices() - 1);
+    off.worst = std::max(off.worst, e);
+  }
+  return off;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("merged windows: strips very many edges long", "", float, double) {
+  for (const Index edges : {Index{10000}, Index{100000}}) {
+    const samples::LongStrip strip(edges, 2, 1);
+    const auto check = [&, edges](const TriangleMesh<TestType>& mesh, const std::string& form) {
+      const Off off = off_in(mesh, strip);
+      CAPTURE(edges, form, off.mean, off.worst);
+      CHECK(off.mean <= (edges == 10000 ? 1e-4 : 3e-5));
+      CHECK(off.worst <= 2e-4);
+    };
+    check({strip.vertices(), strip.faces, strip.lengths()}, "by lengths alone");
+    check({strip.wound(), strip.faces}, "wound up");
+    const Off flat = off_in(TriangleMesh<TestType>(strip.in_plane(), strip.faces), strip);
+    CHECK(flat.mean <= 1e-7);
   }
 }
 

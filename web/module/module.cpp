@@ -124,7 +124,7 @@ PropagateOptions options_of(std::string_view accuracy) {
 const AnyDomain& solved_on(std::string_view accuracy) {
   Session& now = session();
   if (accuracy != "exact") return opened();
-  if (!now.precise) now.precise = AnyDomain(opened().shape(), {.precision = Precision::twice});
+  if (!now.precise) now.precise = AnyDomain(opened().shape(), {.precision = Precision::float64});
   return *now.precise;
 }
 
@@ -144,7 +144,7 @@ PLEXWAY_PAGE_CALLS int plexway_open(const char* file, const char* as, int twice)
       if (!reading.as) throw UsageError("'" + std::string(as) + "' is no kind of domain");
     }
     BuildOptions building;
-    building.precision = twice != 0 ? Precision::twice : Precision::single;
+    building.precision = twice != 0 ? Precision::float64 : Precision::float32;
     const auto start = std::chrono::steady_clock::now();
     AnyShape shape = AnyShape::read(file, reading);
     const double load = milliseconds_since(start);

@@ -12,7 +12,6 @@
 #include "complexes/surface/face_layout.hpp"
 #include "complexes/surface/intrinsic/delaunay_flips.hpp"
 #include "complexes/surface/intrinsic/intrinsic_triangulation.hpp"
-#include "complexes/surface/intrinsic/lost_edges.hpp"
 #include "complexes/surface/intrinsic/triangulation_shape.hpp"
 #include "complexes/surface/shape_blocks.hpp"
 

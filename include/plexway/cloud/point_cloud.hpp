@@ -9,6 +9,7 @@
 
 #include <plexway/cloud/neighbours.hpp>
 #include <plexway/common/ids.hpp>
+#include <plexway/common/rows_of.hpp>
 #include <plexway/domain/concept.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
@@ -83,6 +84,8 @@ struct CloudSummary {
 /// Memory: about 140 bytes a point in float; up to four times that while it is built.
 template <class Real>
 class PointCloud {
+  static_assert(is_number_of_domains<Real>, "distances are float or double");
+
  public:
   /// The precision of lengths inside, and of fields.
   using Number = Real;
@@ -98,6 +101,14 @@ class PointCloud {
   /// 2 to 4 us a point on one thread, of which half is done in parallel.
   PointCloud(std::span<const std::array<double, 3>> points, const Neighbours& neighbours,
              const CloudOptions& options = {});
+
+  /// From points in an array of any kind (rows_of).
+  template <RowsOfNumbers Points>
+  requires(!PlainRows<Points, double, 3>)
+      PointCloud(const Points& points, const Neighbours& neighbours,
+                 const CloudOptions& options = {})
+      : PointCloud(std::span<const std::array<double, 3>>(rows_of<double, 3>(points)), neighbours,
+                   options) {}
 
   /// n, twins included.
   [[nodiscard]] std::size_t point_count() const { return summary_.points; }

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstddef>
 #include <span>
+#include <type_traits>
 
 #include <plexway/common/ids.hpp>
 
@@ -51,6 +52,11 @@ concept SimplexDomainType = DomainType<D> && requires(const D& domain, Index num
   { domain.vertices_inside() } -> std::same_as<std::span<const Index>>;  // of each, in order
   domain.summary().components;
 };
+
+/// What the library is compiled for.
+template <class Real>
+inline constexpr bool is_number_of_domains =
+    std::is_same_v<Real, float> || std::is_same_v<Real, double>;
 
 /// The number type of a domain: the precision that fields on it are solved in.
 template <class D>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -8,11 +9,65 @@
 #include <vector>
 
 #include <plexway/common/ids.hpp>
+#include <plexway/common/rows_of.hpp>
+#include <plexway/error.hpp>
 #include <plexway/metric/tensor.hpp>
 
 /// How a metric becomes the edge lengths that complexes are built from. Plain data in, plain data
 /// out; nothing here knows a complex. docs/how-to/metrics.md says what is accurate and what is not.
 namespace plexway::metric {
+
+/// Which corners an edge joins, edge by edge: the order in which lengths stand.
+template <std::size_t Edges>
+using EdgeOrder = std::array<std::array<std::size_t, 2>, Edges>;
+
+/// Of the triangles of a TriangleMesh: around.
+inline constexpr EdgeOrder<3> triangle_edges = {{{0, 1}, {1, 2}, {2, 0}}};
+
+/// Of all other simplices, those of a TetMesh and of a SimplicialComplex, whose triangles are no
+/// exception: (0,1) (0,2) (1,2) (0,3) (1,3) (2,3) (0,4) ...
+template <std::size_t Corners>
+inline constexpr auto simplex_edges = [] {
+  EdgeOrder<Corners*(Corners - 1) / 2> order{};
+  std::size_t edge = 0;
+  for (std::size_t b = 1; b < Corners; ++b)
+    for (std::size_t a = 0; a < b; ++a) order[edge++] = {a, b};
+  return order;
+}();
+
+/// How many corners a simplex with these edges has.
+template <std::size_t Edges>
+constexpr std::size_t corners_in(const EdgeOrder<Edges>& order) {
+  std::size_t last = 0;
+  for (const auto& [a, b] : order) last = a > last ? a : b > last ? b : last;
+  return last + 1;
+}
+
+/// How long the edges of simplices are in space, in the order that is named, of arrays of any kind
+/// (rows_of): to start from where lengths of your own are wanted.
+///
+///   auto lengths = edge_lengths_of<triangle_edges>(positions, triangles);
+///   auto lengths = edge_lengths_of<simplex_edges<4>>(positions, tets);
+///
+/// Throws InputError for a vertex out of range. Cost: linear.
+template <auto order, RowsOfNumbers Points, RowsOfNumbers Simplices>
+[[nodiscard]] std::vector<std::array<double, order.size()>> edge_lengths_of(
+    const Points& positions, const Simplices& simplices) {
+  const auto at = rows_of<double, 3>(positions);
+  const auto rows = rows_of<Index, corners_in(order)>(simplices);
+  std::vector<std::array<double, order.size()>> lengths(rows.size());
+  for (std::size_t s = 0; s < rows.size(); ++s) {
+    for (const Index v : rows[s])
+      if (v >= at.size())
+        throw InputError("simplex " + std::to_string(s) + ": there is no vertex " +
+                         std::to_string(v));
+    for (std::size_t e = 0; e < order.size(); ++e) {
+      const Point &a = at[rows[s][order[e][0]]], &b = at[rows[s][order[e][1]]];
+      lengths[s][e] = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+    }
+  }
+  return lengths;
+}
 
 /// The length of an edge that several simplices share and that each measures for itself.
 enum class Sides {
@@ -83,7 +138,7 @@ struct GivenLengths {
 using Metric = std::variant<SimplexTensors, SimplexSpeeds, VertexTensors, TensorFunction,
                             LengthFunction, GivenLengths>;
 
-/// Lengths of the edges (0,1) (1,2) (2,0) of each triangle, as TriangleMesh takes them.
+/// Lengths of the edges of each triangle (triangle_edges), as TriangleMesh takes them.
 ///
 /// Throws InputError naming the simplex or edge: for a count that does not fit, a vertex out of
 /// range, a speed that is not positive, a tensor that gives an edge no positive length, a length
@@ -94,9 +149,9 @@ using Metric = std::variant<SimplexTensors, SimplexSpeeds, VertexTensors, Tensor
     std::span<const Point> positions, std::span<const std::array<Index, 3>> triangles,
     const Metric& metric);
 
-/// Lengths of the edges (0,1) (0,2) (1,2) (0,3) (1,3) (2,3) of each tetrahedron, as TetMesh takes
-/// them. Throws as above, and UsageError for Sides::own: a solid whose speeds jump is a mixed
-/// domain (AnyShape::measure).
+/// Lengths of the edges of each tetrahedron (simplex_edges), as TetMesh takes them. Throws as
+/// above, and UsageError for Sides::own: a solid whose speeds jump is a mixed domain
+/// (AnyShape::measure).
 [[nodiscard]] std::vector<std::array<double, 6>> tet_lengths(
     std::span<const Point> positions, std::span<const std::array<Index, 4>> tets,
     const Metric& metric);

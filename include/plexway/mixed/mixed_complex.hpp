@@ -50,6 +50,8 @@ struct MixedSummary {
 /// read by any number of threads.
 template <class Real>
 class MixedComplex {
+  static_assert(is_number_of_domains<Real>, "distances are float or double");
+
  public:
   /// The precision of lengths inside, and of fields.
   using Number = Real;

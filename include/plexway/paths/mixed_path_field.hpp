@@ -10,10 +10,12 @@
 #include <plexway/mixed/mixed_complex.hpp>
 #include <plexway/paths/path_field.hpp>
 #include <plexway/solve.hpp>
+#include <plexway/solve/workspace.hpp>
 
 namespace plexway {
 
 class Cells;
+class MediaPaths;
 
 /// A distance field on a mixed domain that traces paths: through pieces of any dimension and
 /// over their welds, refracted where two pieces measure a hinge differently.
@@ -30,7 +32,8 @@ template <class Real>
 class PathField<MixedComplex<Real>> {
  public:
   /// `positions`, one a vertex of the domain, are where paths are drawn; lengths are those of the
-  /// pieces. Throws UsageError for another count. Cost: linear; 36 bytes a tetrahedron.
+  /// pieces. Throws UsageError for another count. Cost: linear; where paths are searched for 36
+  /// bytes a tetrahedron.
   explicit PathField(const MixedComplex<Real>& domain,
                      std::span<const std::array<double, 3>> positions = {});
   /// Moved; what is left may only be destroyed or assigned to.
@@ -43,7 +46,8 @@ class PathField<MixedComplex<Real>> {
   template <class Executor>
   const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
                                    const PropagateOptions& options = {}) {
-    adopt(plexway::solve(executor, *domain_, sources, options), sources);
+    plexway::solve(executor, *domain_, sources, options, workspace_, field_);
+    took(sources);
     return field_;
   }
   /// From one source.
@@ -53,7 +57,8 @@ class PathField<MixedComplex<Real>> {
     return solve(executor, std::span<const PointSource>(&source, 1), options);
   }
 
-  /// Distances from the same sources found elsewhere, one a vertex of the domain.
+  /// Distances from the same sources found elsewhere, one a vertex of the domain. Where strings
+  /// solve the domain they are solved anew, for paths alone.
   void adopt(DistanceField<Real> found, std::span<const PointSource> sources);
 
   /// The field of the last solve.
@@ -61,11 +66,16 @@ class PathField<MixedComplex<Real>> {
 
   /// The path from a point back to its nearest source: no small change makes it shorter. It crosses
   /// a hinge between two speeds where Fermat says, runs along a fast sheet where that pays, and
-  /// meets wires at their vertices only, as distances do. Where it is more than 5e-4 longer than
-  /// the distance, or inside a simplex than a path by one of its corners, it was looked for three
-  /// times, each time more finely. Throws UsageError for a point that is not in the domain, or
-  /// before a solve. Any number of threads may trace at once.
-  /// Cost: see search_cells; some milliseconds for a hundred cells.
+  /// meets wires at their vertices only, as distances do.
+  ///
+  /// Where strings solve the domain it is the string to the point, as long as the distance: all
+  /// pieces lie in one space, with a solid among them and no sheet of many facets, and they are not
+  /// solids that join to one of one speed. Elsewhere it is searched for by the
+  /// distances of vertices; where it is more than 5e-4 longer than the distance, or inside a
+  /// simplex than a path by one of its corners, three times, each time more finely. Throws
+  /// UsageError for a point that is not in the domain, or before a solve. Any number of threads may
+  /// trace at once. Cost: by strings that of a vertex of a solve, and some microseconds a simplex;
+  /// by search some milliseconds for a hundred.
   [[nodiscard]] Path trace(const PointSource& point, const TraceOptions& options = {}) const;
   /// From a vertex.
   [[nodiscard]] Path trace(Index vertex, const TraceOptions& options = {}) const {
@@ -73,22 +83,25 @@ class PathField<MixedComplex<Real>> {
   }
 
   /// The distance of any point of the domain, in its unit; its offset does not count. `linear` by
-  /// the distances of its simplex's corners, other levels by its path. +inf where none leads.
-  /// Throws and costs as `trace`.
+  /// the distances of its simplex's corners, other levels by the length of its path. +inf where
+  /// none leads. Throws and costs as `trace`.
   [[nodiscard]] double at(const PointSource& point, ReadOut level = ReadOut::neighbours) const;
 
   /// Bytes held, without those of the domain and the positions.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  void took(std::span<const PointSource> sources);
   [[nodiscard]] PointSource checked(const PointSource& point) const;
 
   const MixedComplex<Real>* domain_;
   std::span<const std::array<double, 3>> positions_;
-  std::unique_ptr<const Cells> cells_;
-  std::vector<double> distance_;  // by the numbers of cells_
+  std::unique_ptr<const Cells> cells_;  // where strings do not go
+  std::vector<double> distance_;        // by the numbers of cells_
+  Workspace<Real> workspace_;
   DistanceField<Real> field_;
   std::vector<PointSource> sources_;
+  std::unique_ptr<const MediaPaths> paths_;  // by strings
   bool solved_ = false;
 };
 

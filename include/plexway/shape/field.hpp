@@ -14,7 +14,15 @@
 namespace plexway {
 
 /// Whether numbers are float or double.
-enum class Precision { single, twice };
+enum class Precision {
+  float32,  ///< float
+  float64,  ///< double
+  ///@{
+  /// The names of before.
+  single [[deprecated("use float32")]] = float32,
+  twice [[deprecated("use float64")]] = float64,
+  ///@}
+};
 
 /// Which triangles a surface is solved on.
 enum class Triangulation {
@@ -59,15 +67,11 @@ class AnyField {
         [](const auto& f) { return std::vector<double>(f.distance.begin(), f.distance.end()); },
         data);
   }
-  /// As they are, no copy; empty where the domain has the other precision.
-  [[nodiscard]] std::span<const float> singles() const {
-    const auto* of = std::get_if<DistanceField<float>>(&data);
-    return of == nullptr ? std::span<const float>() : std::span<const float>(of->distance);
-  }
-  /// Likewise.
-  [[nodiscard]] std::span<const double> twice() const {
-    const auto* of = std::get_if<DistanceField<double>>(&data);
-    return of == nullptr ? std::span<const double>() : std::span<const double>(of->distance);
+  /// As they are, of float or double, no copy; empty where the domain has the other precision.
+  template <class Real>
+  [[nodiscard]] std::span<const Real> view() const {
+    const auto* of = std::get_if<DistanceField<Real>>(&data);
+    return of == nullptr ? std::span<const Real>() : std::span<const Real>(of->distance);
   }
   /// Nearest source of each vertex, by its place in the list; `none` where unreached. Empty for a
   /// single source.

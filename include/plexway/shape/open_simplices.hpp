@@ -43,7 +43,7 @@ class OpenSimplices {
   [[nodiscard]] PointSource outside(const PointSource& point) const;
   /// Is a vertex in an open simplex? If not it reaches nothing but itself. It must be one (not
   /// checked).
-  [[nodiscard]] bool reach(Index vertex) const { return reached_[vertex] != 0; }
+  [[nodiscard]] bool reached(Index vertex) const { return reached_[vertex] != 0; }
 
   ///@{
   /// The same place inside. A vertex, or nothing, stays as it is, but a merged one is the first at

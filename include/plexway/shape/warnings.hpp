@@ -53,6 +53,15 @@ struct Warning {
                                             const PropagateOptions& options = {},
                                             Reader reader = Reader::people);
 
+/// The same where the kind of domain is known, of which only its summary and the field are looked
+/// at: not whether vertices coincide, what a file left out, or where the rim of a cloud runs, all
+/// of which AnyDomain knows. Compiled for the domains of the library. Link plexway::any.
+///
+///   for (const Warning& warning : warnings(mesh, field)) std::cerr << warning.text << '\n';
+template <DomainType D>
+[[nodiscard]] std::vector<Warning> warnings(const D& domain, const DistanceField<RealOf<D>>& field,
+                                            const PropagateOptions& options = {});
+
 /// The warnings for several fields besides those for their domain, as far as sums of their
 /// statistics show: rows of a matrix (PairsReport). Few poor ones among many good are not seen.
 /// `accuracy` is what was requested.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <plexway/common/ids.hpp>
+#include <plexway/common/rows_of.hpp>
 #include <plexway/domain/concept.hpp>
 #include <plexway/simplicial/detail/simplex_record.hpp>
 
@@ -59,6 +60,9 @@ struct SimplicialSummary {
 /// their own (TriangleMesh, TetMesh), those can do more.
 template <class Real, int N>
 class SimplicialComplex {
+  static_assert(is_number_of_domains<Real>, "distances are float or double");
+  static_assert(N >= 1 && N <= 4, "complexes of simplices have the dimensions 1 to 4");
+
  public:
   /// The precision of lengths inside, and of fields.
   using Number = Real;
@@ -76,12 +80,10 @@ class SimplicialComplex {
   using Lengths = std::array<double, N*(N + 1) / 2>;
 
   /// From intrinsic lengths: one row a simplex, in the order (0,1) (0,2) (1,2) (0,3) (1,3) (2,3)
-  /// (0,4)
-  /// ... of its corners. Two vertices have one edge: where simplices differ by rounding the mean is
-  /// taken. Throws InputError naming the simplex for a vertex out of range or twice in it, a length
-  /// that is negative or not finite, two lengths of one edge, and for no simplex or more than
-  /// 2^28 - 1.
-  /// Cost: O(n log n), about 1 us a simplex.
+  /// (0,4) ... of its corners (metric::simplex_edges). Two vertices have one edge: where simplices
+  /// differ by rounding the mean is taken. Throws InputError naming the simplex for a vertex out of
+  /// range or twice in it, a length that is negative or not finite, two lengths of one edge, and
+  /// for no simplex or more than 2^28 - 1. Cost: O(n log n), about 1 us a simplex.
   SimplicialComplex(std::size_t vertices, std::span<const Corners> simplices,
                     std::span<const Lengths> lengths);
 
@@ -90,6 +92,11 @@ class SimplicialComplex {
   /// complex lies flat, at half the cost again.
   SimplicialComplex(std::span<const double> positions, std::size_t axes,
                     std::span<const Corners> simplices);
+
+  /// From arrays of any kind (rows_of); a row of coordinates has as many numbers as there are axes.
+  template <RowsOfAnyWidth Points, RowsOfNumbers Simplices>
+  SimplicialComplex(const Points& positions, const Simplices& simplices)
+      : SimplicialComplex(equal_rows_of(positions), rows_of<Index, N + 1>(simplices)) {}
 
   /// Referenced or not: fields have one distance each.
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
@@ -136,6 +143,8 @@ class SimplicialComplex {
   ///@}
 
  private:
+  SimplicialComplex(const EqualRows& positions, const std::vector<Corners>& simplices)
+      : SimplicialComplex(positions.numbers, positions.width, simplices) {}
   void assemble(std::size_t vertices, std::span<const Corners> simplices,
                 std::vector<Lengths> lengths);
   void find_stars(std::size_t vertices);

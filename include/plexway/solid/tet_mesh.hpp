@@ -58,6 +58,8 @@ struct SolidSummary {
 /// for locality. Memory: 68 bytes a tetrahedron and 20 a vertex in float.
 template <class Real>
 class TetMesh {
+  static_assert(is_number_of_domains<Real>, "distances are float or double");
+
  public:
   /// The precision of lengths inside, and of fields.
   using Number = Real;
@@ -82,11 +84,11 @@ class TetMesh {
       : TetMesh(std::span<const std::array<double, 3>>(rows_of<double, 3>(positions)),
                 std::span<const std::array<Index, 4>>(rows_of<Index, 4>(tets)), threads) {}
 
-  /// From intrinsic lengths: lengths[t] are those of the edges (0,1) (0,2) (1,2) (0,3) (1,3) (2,3)
-  /// of tetrahedron t, and must be the same wherever an edge occurs (up to rounding; not checked).
-  /// Lengths that no tetrahedron has are replaced by those of the nearest flat one along that order
-  /// (SolidSummary::degenerate_tets counts). Throws as above, and for a length that is negative or
-  /// not finite.
+  /// From intrinsic lengths: lengths[t] are those of the edges of tetrahedron t (0,1) (0,2) (1,2)
+  /// (0,3) (1,3) (2,3), as metric::simplex_edges names them, and must be the same wherever an edge
+  /// occurs (up to rounding; not checked). Lengths that no tetrahedron has are replaced by those of
+  /// the nearest flat one along that order (SolidSummary::degenerate_tets counts). Throws as above,
+  /// and for a length that is negative or not finite.
   TetMesh(std::size_t vertices, std::span<const std::array<Index, 4>> tets,
           std::span<const std::array<double, 6>> lengths, int threads = 0);
 

@@ -107,6 +107,8 @@ struct SurfaceHints {
 /// locality. Memory: 68 bytes a triangle and 8 a vertex in float, 32 a vertex with coordinates.
 template <class Real>
 class TriangleMesh {
+  static_assert(is_number_of_domains<Real>, "distances are float or double");
+
  public:
   /// The precision of lengths inside, and of fields.
   using Number = Real;
@@ -132,12 +134,12 @@ class TriangleMesh {
                      std::span<const std::array<Index, 3>>(rows_of<Index, 3>(faces)), hints) {}
 
   /// From intrinsic lengths: lengths[f][i] is the length of the edge from corner i of face f to the
-  /// next, and must be the same from both sides (but for 1e-5, of which the mean is taken;
-  /// InputError). Triangles are glued where two corners share both vertices. An edge longer than
-  /// the way around by the other two is shortened to it, and so on (SurfaceSummary::violated_faces
-  /// counts). Throws as above, and for a length that is negative or not finite. With
-  /// SurfaceHints::refracts each triangle keeps its own lengths (and is shortened alone), edges
-  /// with two are SurfaceSummary::refracting_edges.
+  /// next (metric::triangle_edges), and must be the same from both sides (but for 1e-5, of which
+  /// the mean is taken; InputError). Triangles are glued where two corners share both vertices. An
+  /// edge longer than the way around by the other two is shortened to it, and so on
+  /// (SurfaceSummary::violated_faces counts). Throws as above, and for a length that is negative or
+  /// not finite. With SurfaceHints::refracts each triangle keeps its own lengths (and is shortened
+  /// alone), edges with two are SurfaceSummary::refracting_edges.
   TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
                std::span<const std::array<double, 3>> lengths, const SurfaceHints& hints = {});
 

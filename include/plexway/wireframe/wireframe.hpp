@@ -48,6 +48,8 @@ struct WireArc {
 /// locality. Memory in float: 8 bytes a vertex and 20 an edge.
 template <class Real>
 class Wireframe {
+  static_assert(is_number_of_domains<Real>, "distances are float or double");
+
  public:
   /// The precision of lengths inside, and of fields.
   using Number = Real;

@@ -11,7 +11,7 @@
 #include <plexway/error.hpp>
 
 #include "colour_map.hpp"
-#include "complexes/solid/outer_faces.hpp"
+#include "complexes/solid/shared_faces.hpp"
 #include "field_formats.hpp"
 #include "io/base64.hpp"
 #include "io/bytes.hpp"

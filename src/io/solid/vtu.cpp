@@ -111,7 +111,7 @@ class VtuReader {
     if (header != "UInt32" && header != "UInt64") fail(root, "the header type is " + quote(header));
     encoding_.header = header == "UInt64" ? NumberType::u64 : NumberType::u32;
     compressor_ = root.attribute("compressor").value();
-    encoding_.compressed = !compressor_.empty();
+    encoding_.packing = vtu_packing(compressor_);
   }
 
   std::uint64_t number(pugi::xml_node node, const char* name) const {
@@ -282,7 +282,7 @@ class VtuReader {
       in.finish(what);
       return;
     }
-    if (encoding_.compressed && compressor_ != "vtkZLibDataCompressor")
+    if (encoding_.packing == VtuPacking::unknown)
       fail(array, "data packed by " + quote(compressor_) +
                       " are not read; save the file with zlib or without compression");
     std::string bytes;

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -17,6 +19,12 @@
 
 #if PLEXWAY_IO_ZLIB
 #include <zlib.h>
+#endif
+#if PLEXWAY_IO_LZ4
+#include <lz4.h>
+#endif
+#if PLEXWAY_IO_LIBLZMA
+#include <lzma.h>
 #endif
 
 namespace plexway::io {
@@ -117,8 +125,65 @@ std::string decode_plain(Stream& in, const VtuEncoding& encoding, std::uint64_t&
   return out;
 }
 
+// How a block is unpacked: false where it does not come to just `out`.
+using Unpack = bool (*)(std::string_view packed, std::span<char> out);
+
+struct Packing {
+  std::string_view name;  // of the compressor
+  std::string_view package;
+  std::uint64_t most;  // bytes that one packed byte comes to, at best
+  Unpack unpack;       // null where the library is not there
+};
+
 #if PLEXWAY_IO_ZLIB
+constexpr Unpack inflate = [](std::string_view packed, std::span<char> out) {
+  uLongf written = static_cast<uLongf>(out.size());
+  return uncompress(reinterpret_cast<Bytef*>(out.data()), &written,
+                    reinterpret_cast<const Bytef*>(packed.data()),
+                    static_cast<uLong>(packed.size())) == Z_OK &&
+         written == out.size();
+};
+#else
+constexpr Unpack inflate = nullptr;
+#endif
+
+#if PLEXWAY_IO_LZ4
+constexpr Unpack unpack_lz4 = [](std::string_view packed, std::span<char> out) {
+  return std::in_range<int>(packed.size()) && std::in_range<int>(out.size()) &&
+         LZ4_decompress_safe(packed.data(), out.data(), static_cast<int>(packed.size()),
+                             static_cast<int>(out.size())) == static_cast<int>(out.size());
+};
+#else
+constexpr Unpack unpack_lz4 = nullptr;
+#endif
+
+#if PLEXWAY_IO_LIBLZMA
+constexpr Unpack unpack_lzma = [](std::string_view packed, std::span<char> out) {
+  std::uint64_t memory = std::uint64_t{1} << 28;
+  std::size_t read = 0, written = 0;
+  return lzma_stream_buffer_decode(&memory, 0, nullptr,
+                                   reinterpret_cast<const std::uint8_t*>(packed.data()), &read,
+                                   packed.size(), reinterpret_cast<std::uint8_t*>(out.data()),
+                                   &written, out.size()) == LZMA_OK &&
+         written == out.size();
+};
+#else
+constexpr Unpack unpack_lzma = nullptr;
+#endif
+
+// In the order of VtuPacking, behind `none`.
+constexpr std::array<Packing, 3> packings = {{
+    {"vtkZLibDataCompressor", "zlib1g-dev", 1032, inflate},
+    {"vtkLZ4DataCompressor", "liblz4-dev", 255, unpack_lz4},
+    {"vtkLZMADataCompressor", "liblzma-dev", 8192, unpack_lzma},
+}};
+
 std::string decode_compressed(Stream& in, const VtuEncoding& encoding, std::uint64_t& room) {
+  const Packing& packing = packings[static_cast<std::size_t>(encoding.packing) - 1];
+  if (packing.unpack == nullptr)
+    throw NotBuiltError("this plexway reads no .vtu compressed by " + std::string(packing.name) +
+                        ": install " + std::string(packing.package) +
+                        " and build it again, or save the file without compression");
   const std::uint64_t blocks = in.take_length(encoding);
   const std::uint64_t block = in.take_length(encoding);
   const std::uint64_t last = in.take_length(encoding);
@@ -138,39 +203,33 @@ std::string decode_compressed(Stream& in, const VtuEncoding& encoding, std::uint
   for (std::uint64_t b = 0; b < blocks; ++b) {
     const std::uint64_t size = b + 1 == blocks && last != 0 ? last : block;
     if (sizes[b] > in.most()) in.fail("block " + std::to_string(b) + " ends behind the file");
-    // Deflate packs a byte into no less than 1/1032.
-    if (size / 1032 > sizes[b] + 64)
+    if (size / packing.most > sizes[b] + 64)
       in.fail("block " + std::to_string(b) + " of " + std::to_string(sizes[b]) +
               " bytes cannot hold " + std::to_string(size));
     packed.resize(sizes[b]);
     in.take(packed.data(), packed.size());
     const std::size_t before = out.size();
     out.resize(before + size);
-    uLongf written = static_cast<uLongf>(size);
-    const int status = uncompress(reinterpret_cast<Bytef*>(out.data() + before), &written,
-                                  reinterpret_cast<const Bytef*>(packed.data()),
-                                  static_cast<uLong>(packed.size()));
-    if (status != Z_OK || written != size)
+    if (!packing.unpack(packed, {out.data() + before, size}))
       in.fail("block " + std::to_string(b) + " does not unpack to " + std::to_string(size) +
               " bytes");
   }
   return out;
 }
-#else
-std::string decode_compressed(Stream&, const VtuEncoding&, std::uint64_t&) {
-  throw NotBuiltError(
-      "this plexway reads no compressed .vtu: install zlib1g-dev and build it again, or save the "
-      "file without compression");
-}
-#endif
-
 }  // namespace
+
+VtuPacking vtu_packing(std::string_view compressor) {
+  if (compressor.empty()) return VtuPacking::none;
+  const auto known = std::find_if(packings.begin(), packings.end(),
+                                  [&](const Packing& one) { return one.name == compressor; });
+  return static_cast<VtuPacking>(known - packings.begin() + 1);
+}
 
 std::string decode_vtu_array(std::string_view data, bool base64, const VtuEncoding& encoding,
                              const std::string& where, std::uint64_t& room) {
   Stream in(data, base64, where);
-  return encoding.compressed ? decode_compressed(in, encoding, room)
-                             : decode_plain(in, encoding, room);
+  return encoding.packing != VtuPacking::none ? decode_compressed(in, encoding, room)
+                                              : decode_plain(in, encoding, room);
 }
 
 }  // namespace plexway::io

@@ -36,6 +36,7 @@ class PlainSolidRule : kernel::HingeKernel<Real, 2> {
         lengths_(mesh.squared_lengths().data()),
         sentinel_(static_cast<Index>(mesh.tet_count())),
         embedded_(mesh.embedded()),
+        face_tolerance(embedded_ || mesh.summary().notch_edges > 0 ? rounding : Real(0.1)),
         policy_(policy),
         front_(&front) {}
   /// The same rule on the front of another executor.
@@ -162,7 +163,7 @@ class PlainSolidRule : kernel::HingeKernel<Real, 2> {
   }
 
  private:
-  static constexpr Real face_tolerance = sizeof(Real) == 4 ? Real(2e-4) : Real(1e-9);
+  static constexpr Real rounding = sizeof(Real) == 4 ? Real(2e-4) : Real(1e-9);
   static constexpr Real bend_penalty = 1 + 32 * std::numeric_limits<Real>::epsilon();
 
   // What the text of the step calls.
@@ -205,6 +206,9 @@ class PlainSolidRule : kernel::HingeKernel<Real, 2> {
   const std::array<Real, 6>* lengths_;
   Index sentinel_;
   bool embedded_;
+  // Lengths alone that nothing is in the way of: what a line misses a face by is how space is bent
+  // there, not a notch that it would cut off. (By the name that the text of the step has.)
+  Real face_tolerance;
   Visibility policy_;
   Front* front_;
   Index inside_ = none;  // the tetrahedron a source lies in, while its faces are crossed

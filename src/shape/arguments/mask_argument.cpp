@@ -1,6 +1,6 @@
-#include "shape/arguments/mask_argument.hpp"
+#include "shape/arguments/arguments.hpp"
+#include "shape/inside.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -15,8 +15,6 @@
 #include <plexway/shape/open_simplices.hpp>
 
 #include "io/number_rows.hpp"
-#include "shape/arguments/require.hpp"
-#include "shape/words.hpp"
 
 namespace plexway {
 namespace {
@@ -96,7 +94,7 @@ void require_all(const Mask* mask, const AnyShape& domain, std::span<const Place
   if (mask == nullptr) return;
   const OpenSimplices open(*mask, domain);
   const auto check = [&](Index vertex) {
-    if (vertex == none || open.reach(vertex)) return;
+    if (vertex == none || open.reached(vertex)) return;
     throw InputError(
         "--mask: vertex " + std::to_string(vertex) +
         (mask->closed_vertices()[vertex] != 0 ? " is masked" : " is cut off by the mask") +
@@ -108,16 +106,11 @@ void require_all(const Mask* mask, const AnyShape& domain, std::span<const Place
     } catch (const UsageError& error) {
       throw InputError(std::string("--mask: ") + error.what());
     }
-    if constexpr (std::is_same_v<Place, PointSource>) {
+    if constexpr (std::is_same_v<Place, PointSource>)
       check(place.vertex);
-    } else {
-      if (const auto* point = std::get_if<PointSource>(&place)) check(point->vertex);
-      if (const auto* ball = std::get_if<BallSource>(&place)) check(ball->centre.vertex);
-      if (const auto* set = std::get_if<VertexSource>(&place))
-        for (const Index v : set->vertices) check(v);
-      if (const auto* curve = std::get_if<CurveSource>(&place))
-        for (const PointSource& point : curve->points) check(point.vertex);
-    }
+    else
+      each_place(
+          place, [&](const PointSource& point) { check(point.vertex); }, check, [](Index) {});
   }
 }
 

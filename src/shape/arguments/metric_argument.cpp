@@ -1,17 +1,14 @@
-#include "shape/arguments/metric_argument.hpp"
+#include "shape/arguments/arguments.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <utility>
-#include <variant>
 
 #include <plexway/error.hpp>
 
 #include "io/number_rows.hpp"
-#include "shape/arguments/require.hpp"
 #include "shape/words.hpp"
 
 namespace plexway {

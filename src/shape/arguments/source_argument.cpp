@@ -1,4 +1,4 @@
-#include "shape/arguments/source_argument.hpp"
+#include "shape/arguments/arguments.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -10,10 +10,8 @@
 #include <plexway/shape/support.hpp>
 
 #include "io/number_rows.hpp"
-#include "shape/arguments/point_argument.hpp"
-#include "shape/arguments/require.hpp"
+#include "shape/boundary.hpp"
 #include "shape/shape_state.hpp"
-#include "shape/warnings/walls.hpp"
 #include "shape/words.hpp"
 
 namespace plexway {
@@ -32,28 +30,6 @@ namespace {
                    "write vertex:ID (0-based), point:X,Y,Z, vertices:FILE, boundary, "
                    "segment:X,Y,Z,X,Y,Z, polyline:FILE, triangle:ID or circle:X,Y,Z,R, and "
                    "+OFFSET behind it if wanted");
-}
-
-std::optional<double> number_of(std::string_view text) {
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || rest != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-std::optional<std::vector<double>> numbers_of(std::string_view text, std::size_t count) {
-  std::vector<double> numbers;
-  for (;;) {
-    const std::size_t comma = text.find(',');
-    const auto value = number_of(text.substr(0, comma));
-    if (!value) return std::nullopt;
-    numbers.push_back(*value);
-    if (comma == text.npos) break;
-    text.remove_prefix(comma + 1);
-  }
-  if (numbers.size() != count) return std::nullopt;
-  return numbers;
 }
 
 // Takes +OFFSET off the end. The + of an exponent, as in 1e+5, is none.

@@ -6,12 +6,15 @@
 #include <random>
 #include <variant>
 
-#include <plexway/boost_graph/dijkstra.hpp>
-#include <plexway/boost_graph/edge_graph.hpp>
 #include <plexway/error.hpp>
 
 #include "shape/simplex_edges.hpp"
 #include "shape/stopwatch.hpp"
+
+#ifdef PLEXWAY_HAS_BOOST_GRAPH
+#include <plexway/boost_graph/dijkstra.hpp>
+#include <plexway/boost_graph/edge_graph.hpp>
+#endif
 
 namespace plexway {
 namespace {
@@ -67,9 +70,6 @@ RaceTimes race(const AnyDomain& domain, AnyField& field, EdgeDijkstra* dijkstra,
 }
 
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
-
-#endif
-#ifdef PLEXWAY_HAS_BOOST_GRAPH
 namespace {
 
 template <class Real>
@@ -92,7 +92,7 @@ class BoostDijkstra final : public EdgeDijkstra {
 
 std::unique_ptr<EdgeDijkstra> make_edge_dijkstra(const AnyShape& domain, Precision precision) {
   const auto peer_of = [&](const auto& shape) -> std::unique_ptr<EdgeDijkstra> {
-    if (precision == Precision::single) return std::make_unique<BoostDijkstra<float>>(shape);
+    if (precision == Precision::float32) return std::make_unique<BoostDijkstra<float>>(shape);
     return std::make_unique<BoostDijkstra<double>>(shape);
   };
   try {

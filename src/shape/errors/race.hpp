@@ -33,8 +33,6 @@ struct RaceTimes {
   std::vector<double> plexway, dijkstra;
 };
 
-class EdgeDijkstra;
-
 /// Of any order; NaN of none.
 [[nodiscard]] double median(std::vector<double> values);
 

@@ -1,9 +1,9 @@
 #include <plexway/cloud/point_cloud.hpp>
 #include <plexway/surface/smoothing.hpp>
 
-#include "shape/cloud_words.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/simplex_edges.hpp"
+#include "shape/warnings/sentences.hpp"
 #include "shape/words.hpp"
 
 namespace plexway {
@@ -38,11 +38,11 @@ std::vector<std::string> cloud_warnings(const CloudShape& cloud, const CloudSumm
 InfoReport info_of(const AnyShape& domain, const CloudShape& cloud) {
   const AnyDomain built = measured_domain(domain);
   const CloudSummary& summary = *built.cloud();
-  const std::vector<double> lengths = lengths_of(edges_of(cloud));
+  const std::vector<double> lengths = lengths_of(edges_of(domain));
   const auto& positions = cloud.points.positions;
   const Spread spread = spread_of(lengths);
   const Bounds box = bounding_box(positions);
-  const std::optional<std::vector<std::size_t>> sizes = summary.component_sizes;
+  const std::vector<std::size_t>& sizes = summary.component_sizes;
   const auto connecting = connecting_k(cloud);
   const double noise = noise_level(cloud.measured(), cloud.neighbours);
   const auto share =
@@ -91,7 +91,6 @@ InfoReport info_of(const AnyShape& domain, const CloudShape& cloud) {
                            short_number(noise) + " of it");
   table.add("bounding box", to_text(box));
   table.add("to neighbours", to_text(spread));
-  for (const std::string& warning : warnings) table.add("note", warning);
   return report;
 }
 

@@ -2,6 +2,7 @@
 #include <plexway/simplicial/simplicial_complex.hpp>
 
 #include "shape/info/info_report.hpp"
+#include "shape/shape_state.hpp"
 #include "shape/simplex_edges.hpp"
 
 namespace plexway {
@@ -66,12 +67,13 @@ InfoReport info_of(const AnyShape& domain, const SimplexShape& simplices) {
 
 InfoReport info_of(const AnyShape& domain, const MixedShape& mixed) {
   const AnyDomain built = measured_domain(domain);
-  std::size_t edges = 0, triangles = 0, tets = 0;
-  for (const MixedShape::Part& part : mixed.parts) {
-    edges += part.edges.size();
-    triangles += part.triangles.size();
-    tets += part.tets.size();
-  }
+  const auto count = [&](std::size_t corners) {
+    std::size_t sum = 0;
+    for (const io::Cells& cells : domain.state().cells)
+      if (cells.corners == corners) sum += cells.count();
+    return sum;
+  };
+  const std::size_t edges = count(2), triangles = count(3), tets = count(4);
   InfoReport report;
   Json& json = report.json;
   json["vertices"] = domain.vertices();

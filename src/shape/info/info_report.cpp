@@ -1,6 +1,6 @@
 #include "shape/info/info_report.hpp"
 
-#include "shape/collapsed.hpp"
+#include "shape/merge.hpp"
 
 #include <algorithm>
 
@@ -59,21 +59,19 @@ std::string to_text(const Spread& spread) {
          short_number(spread.max);
 }
 
-Json sizes_json(const std::optional<std::vector<std::size_t>>& sizes) {
-  if (!sizes) return nullptr;
+Json sizes_json(const std::vector<std::size_t>& sizes) {
   constexpr std::size_t most = 100;
-  Json array = Json::array();
-  for (std::size_t i = 0; i < std::min(most, sizes->size()); ++i) array.push_back((*sizes)[i]);
-  return array;
+  return Json(std::vector<std::size_t>(
+      sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(std::min(most, sizes.size()))));
 }
 
-void add_sizes(Table& table, const std::optional<std::vector<std::size_t>>& sizes) {
-  if (!sizes || sizes->size() < 2) return;
+void add_sizes(Table& table, const std::vector<std::size_t>& sizes) {
+  if (sizes.size() < 2) return;
   constexpr std::size_t most = 8;
   std::string text;
-  for (std::size_t i = 0; i < std::min(most, sizes->size()); ++i)
-    text.append(i == 0 ? "" : ", ").append(std::to_string((*sizes)[i]));
-  table.add("components", text + (sizes->size() > most ? ", ... vertices" : " vertices"));
+  for (std::size_t i = 0; i < std::min(most, sizes.size()); ++i)
+    text.append(i == 0 ? "" : ", ").append(std::to_string(sizes[i]));
+  table.add("components", text + (sizes.size() > most ? ", ... vertices" : " vertices"));
 }
 
 }  // namespace plexway

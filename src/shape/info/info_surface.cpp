@@ -21,12 +21,10 @@ namespace {
 
 /// What `info` measures on a surface beside SurfaceSummary. Lengths in the file's unit.
 struct SurfaceSurvey {
-  std::array<double, 3> low = {0, 0, 0}, high = {0, 0, 0};    ///< bounding box of all vertices
-  double shortest_edge = 0, mean_edge = 0, longest_edge = 0;  ///< over the sides of all triangles
+  Bounds box;   ///< of all vertices
+  Spread edge;  ///< over the sides of all triangles
   /// Share of triangles whose longest side is more than 10 times sqrt(4/3) their lowest height.
   double slender_share = 0;
-  /// Vertices in use that lie exactly where another one does.
-  std::size_t coincident_vertices = 0;
 };
 
 using Vector = std::array<double, 3>;
@@ -49,35 +47,31 @@ bool is_slender(const std::array<double, 3>& side) {
   return !(std::sqrt(0.75) <= most * height);
 }
 
-/// Cost: O(n log n) for the coincident vertices, else linear.
+/// Cost: linear.
 SurfaceSurvey survey_surface(const io::Triangles& surface) {
   SurfaceSurvey survey;
-  const Bounds box = bounding_box(surface.positions);
-  survey.low = box.low;
-  survey.high = box.high;
-  survey.shortest_edge = std::numeric_limits<double>::infinity();
+  survey.box = bounding_box(surface.positions);
   double sum = 0;
   std::size_t slender = 0;
   for (const auto& corners : surface.triangles) {
     std::array<double, 3> side;
     for (std::size_t i = 0; i < 3; ++i) {
       side[i] = length(surface.positions[corners[i]], surface.positions[corners[(i + 1) % 3]]);
-      survey.shortest_edge = std::min(survey.shortest_edge, side[i]);
-      survey.longest_edge = std::max(survey.longest_edge, side[i]);
+      survey.edge.min = std::min(survey.edge.min, side[i]);
+      survey.edge.max = std::max(survey.edge.max, side[i]);
       sum += side[i];
     }
     if (is_slender(side)) ++slender;
   }
   const auto triangles = static_cast<double>(surface.triangles.size());
-  survey.mean_edge = sum / (3 * triangles);
+  survey.edge.mean = sum / (3 * triangles);
   survey.slender_share = static_cast<double>(slender) / triangles;
-  survey.coincident_vertices = count_coincident(surface.positions, surface.triangles);
   return survey;
 }
 
 /// What may surprise the user of this surface, a sentence each.
 std::vector<std::string> surface_warnings(const SurfaceSummary& summary,
-                                          const SurfaceSurvey& survey) {
+                                          const SurfaceSurvey& survey, std::size_t coincident) {
   std::vector<std::string> warnings;
   const auto warn = [&](std::size_t count, std::string_view plural, const char* meaning) {
     if (count > 0) warnings.push_back(counted(count, plural) + meaning);
@@ -90,7 +84,7 @@ std::vector<std::string> surface_warnings(const SurfaceSummary& summary,
        " where separate parts of the surface touch in one point only");
   if (summary.components > 1) warnings.push_back(components_warning(summary.components));
   warn(summary.unreferenced_vertices, "unreferenced vertices", " in no triangle, so they get inf");
-  warn(survey.coincident_vertices, "vertices",
+  warn(coincident, "vertices",
        " exactly where another one lies: if the two sides of a seam have their own vertices, the "
        "surface is cut along it and paths go round; --merge 0 joins them");
   warn(summary.degenerate_faces, "degenerate triangles", " without area");
@@ -111,10 +105,9 @@ InfoReport info_of(const AnyShape& domain, const io::Triangles& surface) {
   summary.unreferenced_vertices -= domain.merged_count();
   const TriangulationShape shape = measure_triangulation(mesh);
   const SurfaceSurvey survey = survey_surface(surface);
-  const Bounds box{survey.low, survey.high};
-  const Spread edge{survey.shortest_edge, survey.mean_edge, survey.longest_edge};
   const auto sizes = component_sizes(domain);
-  const auto warnings = surface_warnings(summary, survey);
+  const std::size_t coincident = count_coincident(domain);
+  const auto warnings = surface_warnings(summary, survey, coincident);
 
   InfoReport report;
   Json& json = report.json;
@@ -127,12 +120,12 @@ InfoReport info_of(const AnyShape& domain, const io::Triangles& surface) {
   json["non_manifold_edges"] = summary.non_manifold_edges;
   json["pinched_vertices"] = summary.pinched_vertices;
   json["unreferenced_vertices"] = summary.unreferenced_vertices;
-  json["coincident_vertices"] = survey.coincident_vertices;
+  json["coincident_vertices"] = coincident;
   json["degenerate_simplices"] = summary.degenerate_faces;
   json["slender_share"] = survey.slender_share;
   json["orientable"] = summary.orientable;
-  json["bounding_box"] = to_json(box);
-  json["edge_length"] = to_json(edge);
+  json["bounding_box"] = to_json(survey.box);
+  json["edge_length"] = to_json(survey.edge);
   json["warnings"] = warnings;
 
   Table& table = report.table;
@@ -141,12 +134,11 @@ InfoReport info_of(const AnyShape& domain, const io::Triangles& surface) {
                                                  counted(summary.faces, domain.simplex_name()) +
                                                  ", " + counted(summary.components, "components"));
   add_sizes(table, sizes);
-  table.add("bounding box", to_text(box));
-  table.add("edge length", to_text(edge));
+  table.add("bounding box", to_text(survey.box));
+  table.add("edge length", to_text(survey.edge));
   table.add("slender", short_number(100 * survey.slender_share) +
                            " % of the triangles have an aspect ratio above 10");
   add_shape(shape, json, table);
-  for (const std::string& warning : warnings) table.add("note", warning);
   return report;
 }
 

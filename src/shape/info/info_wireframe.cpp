@@ -53,8 +53,7 @@ InfoReport info_of(const AnyShape& domain, const io::Edges& wireframe) {
   const double total = std::accumulate(lengths.begin(), lengths.end(), 0.0);
   const Degrees degrees = degrees_of(wireframe);
   const bool placed = !wireframe.positions.empty();
-  const std::size_t coincident =
-      placed ? count_coincident(wireframe.positions, wireframe.edges) : 0;
+  const std::size_t coincident = count_coincident(domain);
   const Bounds box = bounding_box(wireframe.positions);
   const auto sizes = component_sizes(domain);
   const auto warnings = wireframe_warnings(summary, coincident);
@@ -87,7 +86,6 @@ InfoReport info_of(const AnyShape& domain, const io::Edges& wireframe) {
   table.add("bounding box", placed ? to_text(box) : "none: the file has lengths only");
   table.add("length", short_number(total));
   table.add("edge length", to_text(spread));
-  for (const std::string& warning : warnings) table.add("note", warning);
   return report;
 }
 

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cstddef>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 

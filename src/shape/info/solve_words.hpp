@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <plexway/any_domain.hpp>
+#include <plexway/executors/piece_ranks.hpp>
 #include <plexway/shape/field.hpp>
 #include <plexway/surface/intrinsic_delaunay.hpp>
 
@@ -40,5 +42,14 @@ void add_accuracy(DomainKind kind, Accuracy accuracy, const PropagateStatistics&
 
 /// What `info` says of the triangles: their shape, and what `auto` makes of it.
 void add_shape(const TriangulationShape& shape, Json& json, Table& table);
+
+/// What a field cost several processes.
+struct RankCounts {
+  std::size_t sent_bytes = 0;             ///< from each to the others, together
+  std::vector<std::uint64_t> peak_bytes;  ///< memory of each at its most
+};
+
+/// All processes call it, each with what it sent.
+[[nodiscard]] RankCounts rank_counts(PieceRanks& ranks, std::size_t sent_bytes);
 
 }  // namespace plexway

@@ -5,10 +5,7 @@
 
 #include <plexway/error.hpp>
 
-#include "file/unfinished.hpp"
-#include "shape/modules/hdf5_functions.hpp"
-#include "shape/modules/openvdb_functions.hpp"
-#include "shape/modules/pcl_functions.hpp"
+#include "file/new_file.hpp"
 
 namespace plexway {
 namespace {

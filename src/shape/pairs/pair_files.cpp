@@ -1,11 +1,9 @@
 #include "shape/pairs/pair_files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -24,9 +22,8 @@
 #endif
 
 #include "io/extension.hpp"
-#include "shape/exact_number.hpp"
-#include "shape/modules/hdf5_functions.hpp"
-#include "shape/row_complex.hpp"
+#include "shape/inside.hpp"
+#include "shape/modules/module.hpp"
 #include "shape/stopwatch.hpp"
 #include "shape/with_executor.hpp"
 #include "shape/words.hpp"

@@ -1,7 +1,6 @@
 #include "shape/tuning/policy_file.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <string_view>
 

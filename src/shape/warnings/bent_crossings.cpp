@@ -79,41 +79,43 @@ BentCrossings find(const MixedComplex<Real>& domain) {
 
 }  // namespace
 
+template <class Real>
+SolidBends solid_bends(const MixedComplex<Real>& complex) {
+  SolidBends found;
+  if (MixedSpace::of(complex)->media) return found;  // strings find these ways
+  const auto joined = complex.joined();
+  const MixedComplex<Real>& whole = joined ? joined->domain : complex;
+  if (whole.pieces().size() == 1) return found;
+  for (const auto& piece : whole.pieces())
+    std::visit(
+        [&](const auto& part) {
+          if constexpr (requires { part.reflex_edges(); })
+            for (const auto& edge : part.reflex_edges()) {
+              ++found.edges;
+              found.cracks += is_crack(edge);
+            }
+        },
+        whole.complex(piece));
+  return found;
+}
+
 SolidBends solid_bends(const AnyDomain& domain) {
-  return with_complex(domain, []<class C>(const C& complex) {
-    SolidBends found;
-    if constexpr (std::is_same_v<C, MixedComplex<float>> ||
-                  std::is_same_v<C, MixedComplex<double>>) {
-      if (MixedSpace::of(complex)->media) return found;  // strings find these ways
-      const auto joined = complex.joined();
-      const C& whole = joined ? joined->domain : complex;
-      if (whole.pieces().size() == 1) return found;
-      for (const auto& piece : whole.pieces())
-        std::visit(
-            [&](const auto& part) {
-              if constexpr (requires { part.reflex_edges(); })
-                for (const auto& edge : part.reflex_edges()) {
-                  ++found.edges;
-                  found.cracks += is_crack(edge);
-                }
-            },
-            whole.complex(piece));
-    }
-    return found;
+  return with_complex(domain, []<class C>(const C& complex) -> SolidBends {
+    if constexpr (C::kind == DomainKind::mixed) return solid_bends(complex);
+    return {};
   });
 }
 
-BentCrossings bent_crossings(const AnyDomain& domain) {
-  return with_complex(domain, []<class C>(const C& complex) -> BentCrossings {
-    if constexpr (std::is_same_v<C, MixedComplex<float>> ||
-                  std::is_same_v<C, MixedComplex<double>>) {
-      if (MixedSpace::of(complex)->media) return {};
-      const auto joined = complex.joined();
-      return find(joined ? joined->domain : complex);
-    } else {
-      return {};
-    }
-  });
+template <class Real>
+BentCrossings bent_crossings(const MixedComplex<Real>& complex) {
+  if (MixedSpace::of(complex)->media) return {};
+  const auto joined = complex.joined();
+  return find(joined ? joined->domain : complex);
 }
+
+template SolidBends solid_bends(const MixedComplex<float>&);
+template SolidBends solid_bends(const MixedComplex<double>&);
+template BentCrossings bent_crossings(const MixedComplex<float>&);
+template BentCrossings bent_crossings(const MixedComplex<double>&);
 
 }  // namespace plexway

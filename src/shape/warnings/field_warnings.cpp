@@ -10,14 +10,12 @@
 #include <plexway/shape/complex.hpp>
 
 #include "complexes/simplicial/simplex_notches.hpp"
-#include "shape/cloud_words.hpp"
-#include "shape/collapsed.hpp"
+#include "shape/merge.hpp"
 #include "shape/spelling.hpp"
 #include "shape/warnings/bent_crossings.hpp"
-#include "shape/warnings/rim_detours.hpp"
-#include "shape/warnings/scattered_rims.hpp"
+#include "shape/warnings/cloud_rims.hpp"
+#include "shape/warnings/sentences.hpp"
 #include "shape/warnings/survey.hpp"
-#include "shape/warnings/violations.hpp"
 #include "shape/words.hpp"
 
 namespace plexway {
@@ -88,36 +86,6 @@ std::vector<bool> used_in(const AnyShape& domain) {
   return used;
 }
 
-// What is known of a solid, or of simplices that do not lie flat, by its edges: that paths bend at
-// notches, and that tetrahedra which share edges alone look like quads of a curved surface.
-std::string solid_sentence(const AnyDomain& solver) {
-  if (solver.kind() != DomainKind::solid && solver.kind() != DomainKind::simplices) return "";
-  return with_complex(solver, []<class C>(const C& complex) -> std::string {
-    if constexpr (C::kind == DomainKind::simplices && C::dimension > 1) {
-      const std::size_t notches = complex.summary().flat ? 0 : count_notches(complex);
-      if (notches > 0)
-        return "paths bend around " +
-               counted(notches, C::dimension == 2   ? "corners"
-                                : C::dimension == 3 ? "edges"
-                                                    : "triangles") +
-               " of the boundary, which no rule sees in simplices by lengths, or of more "
-               "coordinates than dimensions: distances behind them may be up to a sixth too short";
-    }
-    if constexpr (C::kind == DomainKind::solid) {
-      const SolidSummary& solid = complex.summary();
-      if (solid.notch_edges > 0)
-        return "paths bend around " + counted(solid.notch_edges, "edges") +
-               " of the boundary, which no rule sees in a solid by lengths or tensors: distances "
-               "behind them may be up to a sixth too short";
-      if (solid.boundary_faces == 4 * solid.tets && solid.pinched_edges > 0)
-        return "no two of the " + counted(solid.tets, "tetrahedra") +
-               " share a face; if they are quads of a surface, split each into the triangles "
-               "(0, 1, 2) and (0, 2, 3)";
-    }
-    return "";
-  });
-}
-
 // Why not all was reached.
 std::string why_unreached(const AnyDomain& solver, Reader reader) {
   const AnyShape& domain = solver.shape();
@@ -181,7 +149,6 @@ std::vector<Warning> domain_warnings(const AnyDomain& solver, Reader reader) {
   if (std::string left_out = collapsed_sentence(domain); !left_out.empty())
     warning(std::move(left_out));
   for (const std::string& note : domain.report().notes) warning(note, false);
-  if (std::string solid = solid_sentence(solver); !solid.empty()) warning(std::move(solid));
   if (const MeasuredLengths* lengths = solver.lengths(); lengths != nullptr && lengths->smoothed)
     warning(smoothed_sentence() + said(Advice::meant));
   if (std::string broken = violations_sentence(solver); !broken.empty()) warning(std::move(broken));
@@ -190,55 +157,13 @@ std::vector<Warning> domain_warnings(const AnyDomain& solver, Reader reader) {
                 " not finite, and dropped: vertices count those that are left; " +
                 said(Advice::original) + " their numbers in the file",
             false);
-  if (const CloudSummary* cloud = solver.cloud()) {
-    if (cloud->near_duplicates > 0)
-      warning(counted(cloud->near_duplicates, "points") +
-                  " much nearer to an earlier one than all others are: they count as that one",
-              false);
-    if (100 * cloud->bridges > cloud->distinct)
-      warning(counted(cloud->bridges, "points") +
-              " hang together by single edges: no surface was found there, and paths go from point "
-              "to point; more neighbours may help (" +
-              said(Advice::k) + std::to_string(4 * std::max<std::size_t>(domain.cloud()->k, 16)) +
-              ")");
-    const bool refused =
-        !domain.cloud()->points.normals.empty() && domain.cloud()->normals().empty();
-    const std::string given = said(Advice::in_the_file), columns = said(Advice::columns);
-    const std::string cure = refused ? "normals that all point to one side would tell (" +
-                                           said(Advice::those) + " do not, and are not taken)"
-                                     : "normals" + given + " tell " + columns;
-    if (cloud->torn_points > 0)
-      warning(counted(cloud->torn_points, "points") + " (" + std::to_string(cloud->first_torn) +
-              " is the first) around holes that could not be closed, as points there do not tell "
-              "which side of the surface they are on: distances near them may be far off; " +
-              cure);
-    if (cloud->chord_points > 0)
-      warning(counted(cloud->chord_points, "points") + " (" + std::to_string(cloud->first_chord) +
-              " is the first) at sharp ridges where points do not tell how the surface runs: edges "
-              "cut through the inside, and distances over them may be far too short; more points "
-              "near the ridge or less noise (" +
-              said(Advice::smooth) + ") help, and " + cure);
-    if (cloud->joints > 0)
-      warning(
-          counted(cloud->joints, "pairs") +
-          " of points join parts that have no triangles between them: all paths from one to the "
-          "other go over these; " +
-          (refused ? "" : "normals" + given + " " + columns + " or ") +
-          "points along the edge where they meet would join them");
-  }
-  if (const BentCrossings bent = bent_crossings(solver); bent.hinges > 0)
-    warning("solids have " + counted(bent.edges, "edges") +
-            " around which paths bend, and faces or edges where the speed changes: single vertices "
-            "whose paths do both may be up to a sixth too far" +
-            (bent.cracks > 0 ? ", most of all where cracks end on such faces; where cracks join on "
-                               "one, single vertices may be too near, by a quarter at worst"
-                             : ""));
-  // A single crack has two ends.
-  if (const SolidBends bends = solid_bends(solver); bends.cracks > 0 && bends.edges > 2)
-    warning(
-        "solids of the domain have cracks, and " + counted(bends.edges, "edges") +
-        " around which paths bend: single vertices behind several of them may be up to a quarter "
-        "too far");
+  if (domain.kind() == DomainKind::surface) return warnings;  // nothing but what was said
+  GivenCloud given;
+  if (const CloudShape* cloud = domain.cloud())
+    given = {cloud->k, !cloud->points.normals.empty() && cloud->normals().empty()};
+  for (Warning& one : with_complex(
+           solver, [&](const auto& complex) { return complex_warnings(complex, reader, given); }))
+    warnings.push_back(std::move(one));
   return warnings;
 }
 
@@ -371,7 +296,7 @@ std::vector<Warning> field_warnings(const AnyDomain& solver, const AnyField& fie
   FieldWork work = work_of(solver, field.statistics(), field.accuracy());
   work.complete = field.complete();
   work.in_space = !domain.positions().empty();
-  if (const double edge = solver.mean_edge(); solver.precision() == Precision::single && edge > 0)
+  if (const double edge = solver.mean_edge(); solver.precision() == Precision::float32 && edge > 0)
     work.edges = largest(field) / edge;
   for (Warning& one : work_warnings(work, reader)) warnings.push_back(std::move(one));
   return warnings;

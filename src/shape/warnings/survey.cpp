@@ -1,15 +1,11 @@
 #include "shape/warnings/survey.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <numeric>
-#include <variant>
 
 #include "complexes/common/point3.hpp"
-#include "shape/simplex_edges.hpp"
-
-#ifdef PLEXWAY_HAS_BOOST_GRAPH
-#include <plexway/boost_graph/graph.hpp>
-#endif
+#include "shape/shape_state.hpp"
 
 namespace plexway {
 
@@ -54,55 +50,50 @@ Spread spread_of(std::span<const double> lengths) {
 }
 
 std::size_t count_coincident(const AnyShape& shape) {
-  return std::visit(
-      [](const auto& data) -> std::size_t {
-        if constexpr (
-            requires { data.edges; } || requires { data.tets; } || requires { data.triangles; })
-          if (data.positions.empty()) return 0;
-        if constexpr (requires { data.triangles; })
-          return count_coincident(data.positions, data.triangles);
-        else if constexpr (requires { data.tets; })
-          return count_coincident(data.positions, data.tets);
-        else if constexpr (requires { data.edges; })
-          return count_coincident(data.positions, data.edges);
-        else
-          return 0;
-      },
-      shape.data());
+  const auto at = shape.positions();
+  if (at.empty() || shape.kind() == DomainKind::simplices || shape.kind() == DomainKind::mixed)
+    return 0;
+  std::vector<bool> used(at.size(), false);
+  for (const io::Cells& cells : shape.state().cells)
+    for (const Index v : cells.connectivity) used[v] = true;
+  std::vector<Index> order;
+  for (Index v = 0; v < used.size(); ++v)
+    if (used[v]) order.push_back(v);
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return at[a] < at[b]; });
+  std::size_t coincident = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool as_before = i > 0 && at[order[i - 1]] == at[order[i]];
+    const bool as_after = i + 1 < order.size() && at[order[i + 1]] == at[order[i]];
+    if (as_before || as_after) ++coincident;
+  }
+  return coincident;
 }
 
-#ifdef PLEXWAY_HAS_BOOST_GRAPH
-std::optional<std::vector<std::size_t>> component_sizes(const AnyShape& domain) {
-  const auto of = [&](const auto& simplices) {
-    return boost_graph::connected_components(domain.vertices(), simplices);
-  };
-  const auto found = std::visit(
-      [&](const auto& data) {
-        using Data = std::decay_t<decltype(data)>;
-        if constexpr (std::is_same_v<Data, io::Triangles>)
-          return of(data.triangles);
-        else if constexpr (std::is_same_v<Data, io::Tets>)
-          return of(data.tets);
-        else
-          return of(edges_of(domain).edges);
-      },
-      domain.data());
-  std::vector<std::size_t> sizes(found.count, 0);
-  for (const Index component : found.of_vertex) ++sizes[component];
-  // A vertex in no simplex is a component to Boost, but not to paths.
-  std::vector<bool> has_simplices(found.count, false);
-  for (std::size_t s = 0; s < domain.simplices(); ++s)
-    has_simplices[found.of_vertex[domain.corners(s).front()]] = true;
-  std::vector<std::size_t> kept;
-  for (std::size_t c = 0; c < found.count; ++c) {
-    if (has_simplices[c]) kept.push_back(sizes[c]);
-  }
-  std::sort(kept.begin(), kept.end(), std::greater<>());
-  return kept;
+DisjointSets joined_vertices(const AnyShape& shape) {
+  DisjointSets sets(shape.vertices());
+  for (const io::Cells& cells : shape.state().cells)
+    for (std::size_t i = 0; i < cells.connectivity.size(); ++i)
+      sets.unite(cells.connectivity[i], cells.connectivity[i - i % cells.corners]);
+  if (const CloudShape* const cloud = shape.cloud())
+    for (Index v = 0; v < cloud->neighbours.point_count(); ++v)
+      for (const Index w : cloud->neighbours.around(v)) sets.unite(v, w);
+  return sets;
 }
-#else
-std::optional<std::vector<std::size_t>> component_sizes(const AnyShape&) { return std::nullopt; }
-#endif
+
+std::vector<std::size_t> component_sizes(const AnyShape& shape) {
+  DisjointSets sets = joined_vertices(shape);
+  std::vector<std::size_t> size(shape.vertices(), 0);
+  for (Index v = 0; v < size.size(); ++v) ++size[sets.find(v)];
+  // A vertex in no simplex is no component.
+  std::vector<bool> used(size.size(), false);
+  for (const io::Cells& cells : shape.state().cells)
+    for (const Index v : cells.connectivity) used[sets.find(v)] = true;
+  std::vector<std::size_t> found;
+  for (Index v = 0; v < size.size(); ++v)
+    if (used[v]) found.push_back(size[v]);
+  std::sort(found.begin(), found.end(), std::greater<>());
+  return found;
+}
 
 std::string components_warning(std::size_t components) {
   return std::to_string(components) +

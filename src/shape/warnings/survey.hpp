@@ -1,15 +1,15 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <plexway/shape/shape.hpp>
+
+#include "complexes/common/disjoint_sets.hpp"
 
 namespace plexway {
 
@@ -29,34 +29,15 @@ struct Spread {
 };
 Spread spread_of(std::span<const double> lengths);
 
-/// Vertices in use that lie exactly where another one does. Cost: O(n log n).
-template <class Simplices>
-std::size_t count_coincident(const std::vector<std::array<double, 3>>& at,
-                             const Simplices& simplices) {
-  std::vector<bool> used(at.size(), false);
-  for (const auto& corners : simplices) {
-    for (const auto v : corners) used[v] = true;
-  }
-  std::vector<std::uint32_t> order;
-  for (std::uint32_t v = 0; v < used.size(); ++v) {
-    if (used[v]) order.push_back(v);
-  }
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return at[a] < at[b]; });
-  std::size_t coincident = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool as_before = i > 0 && at[order[i - 1]] == at[order[i]];
-    const bool as_after = i + 1 < order.size() && at[order[i + 1]] == at[order[i]];
-    if (as_before || as_after) ++coincident;
-  }
-  return coincident;
-}
-
-/// The same of a surface, a solid or a wireframe with positions; else 0.
+/// Vertices in use that lie exactly where another one does, of a surface, a solid or a wireframe
+/// with positions; else 0. Cost: O(n log n).
 std::size_t count_coincident(const AnyShape& shape);
 
-/// Vertices in each component that has simplices, most first, as Boost.Graph counts them; nothing
-/// where this build has no Boost.Graph.
-std::optional<std::vector<std::size_t>> component_sizes(const AnyShape& domain);
+/// Vertices that simplices, of a cloud neighbours, hold together.
+DisjointSets joined_vertices(const AnyShape& shape);
+
+/// Vertices in each component that has simplices, most first.
+std::vector<std::size_t> component_sizes(const AnyShape& shape);
 
 /// "3 components: a source reaches only its own ..."
 std::string components_warning(std::size_t components);

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,8 +6,7 @@
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 
-#include "shape/arguments/point_argument.hpp"
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/errors/race.hpp"
 #include "shape/errors/truth_file.hpp"
 #include "shape/info/error_classes.hpp"
@@ -18,7 +16,6 @@
 #include "tool/options/input.hpp"
 #include "tool/options/solve_options.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -59,7 +56,7 @@ Json bench_json(const BenchCommand& command, const AnyDomain& solver, const AnyF
   json["kind"] = domain.kind_name();
   json["vertices"] = domain.vertices();
   json["simplices"] = solver.simplices();
-  json["precision"] = precision_of(command.solve) == Precision::single ? "float" : "double";
+  json["precision"] = precision_of(command.solve) == Precision::float32 ? "float" : "double";
   json["executor"] = executor_name(result.executor);
   json["threads"] = executor_threads(result.executor);
   json["visibility"] = command.solve.visibility;
@@ -174,24 +171,21 @@ void add_bench_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<BenchCommand>();
   CLI::App& app = *tool.add_subcommand(
       "bench", "Speed against Boost.Graph's Dijkstra, and error against truth");
+  const OptionGroup add(app);
   add_inputs(app, *command);
-  app.add_option("--source,-s", command->sources,
-                 "vertex:ID or point:X,Y,Z; repeat it to take turns between sources")
+  add("--source,-s", command->sources, "WHERE",
+      "vertex:ID or point:X,Y,Z; repeat it to take turns between sources")
       ->required()
-      ->type_name("WHERE")
       ->allow_extra_args(false);
-  app.add_option("--truth", command->truths,
-                 "exact distances from the source in the same place: one a line, in\n"
-                 "vertex order; nan lines are skipped, inf means unreached")
-      ->type_name("FILE")
+  add("--truth", command->truths, "FILE",
+      "exact distances from the source in the same place: one a line, in\n"
+      "vertex order; nan lines are skipped, inf means unreached")
       ->allow_extra_args(false);
-  app.add_option("--random-sources", command->random_sources,
-                 "take turns with K more vertices, always the same ones")
-      ->check(CLI::Range(0, 1'000'000))
-      ->type_name("K");
-  app.add_option("--repeats", command->repeats, "timed runs of each solver (default 20)")
-      ->check(CLI::Range(1, 1'000'000))
-      ->type_name("N");
+  add("--random-sources", command->random_sources, "K",
+      "take turns with K more vertices, always the same ones")
+      ->check(CLI::Range(0, 1'000'000));
+  add("--repeats", command->repeats, "N", "timed runs of each solver (default 20)")
+      ->check(CLI::Range(1, 1'000'000));
   app.add_flag("--anatomy", command->anatomy,
                "split the errors: above and below exact, near the source, where\n"
                "fronts meet, by the shape of simplices, by curvature, in solids by how\n"

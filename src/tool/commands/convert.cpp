@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
@@ -8,7 +7,6 @@
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -50,15 +48,15 @@ void add_convert_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<ConvertCommand>();
   CLI::App& app = *tool.add_subcommand(
       "convert", "Writes a surface, solid, level set, wireframe or cloud in another format");
+  const OptionGroup add(app);
   add_input(app, *command);
-  app.add_option("OUT", command->out,
-                 "by extension: a surface .obj .off .ply .stl .glb .gltf .vtu .vtk, a solid\n"
-                 ".node .ele .mesh .msh .vtu .vtk, a level set .vdb, a wireframe .obj .edges\n"
-                 ".vtu .vtk .glb, a cloud .xyz .ply. A surface is filled where only solids fit,\n"
-                 "and of a solid the boundary is taken where only surfaces fit")
-      ->type_name("OUT")
+  add("OUT", command->out, "OUT",
+      "by extension: a surface .obj .off .ply .stl .glb .gltf .vtu .vtk, a solid\n"
+      ".node .ele .mesh .msh .vtu .vtk, a level set .vdb, a wireframe .obj .edges\n"
+      ".vtu .vtk .glb, a cloud .xyz .ply. A surface is filled where only solids fit,\n"
+      "and of a solid the boundary is taken where only surfaces fit")
       ->required();
-  app.add_option("--as", command->as, as_help)->type_name("KIND");
+  add("--as", command->as, "KIND", as_help);
   add_merge_option(app, *command);
   add_report_options(app, *command);
   add_fill_options(app, command->fill);

@@ -1,8 +1,6 @@
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -11,12 +9,12 @@
 #include <plexway/sampling/poisson_disk.hpp>
 #include <plexway/solve.hpp>
 
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/point_file.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/sampling_command.hpp"
+#include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -34,6 +32,12 @@ struct CvtResult {
   std::vector<Index> label;
 };
 
+CellCentre centre_of(const CvtCommand& command) {
+  return choose<CellCentre>(
+      "--centre", command.centre,
+      {{"centroid", CellCentre::centroid}, {"border", CellCentre::farthest_from_border}});
+}
+
 template <class Complex>
 CvtResult compute(const Complex& complex, const SampledNumbers& numbers, const CvtCommand& command,
                   ProgressLine& progress, Phases& phases) {
@@ -46,8 +50,7 @@ CvtResult compute(const Complex& complex, const SampledNumbers& numbers, const C
   const PoissonDisks start = poisson_disks(Serial{}, complex, throwing);
   phases.end("start");
   VoronoiOptions options;
-  options.centre =
-      command.centre == "centroid" ? CellCentre::centroid : CellCentre::farthest_from_border;
+  options.centre = centre_of(command);
   options.max_iterations = command.iterations;
   options.tolerance = command.tolerance;
   progress.phase("moving seeds");
@@ -80,8 +83,7 @@ void run_cvt(const CvtCommand& command) {
   const Precision precision = precision_of(command);
   if (command.count == 0) throw UsageError("--count must be > 0");
   if (!(command.tolerance >= 0)) throw UsageError("--tolerance must be >= 0");
-  if (command.centre != "centroid" && command.centre != "border")
-    throw UsageError("--centre '" + command.centre + "': choose one of centroid, border");
+  static_cast<void>(centre_of(command));
   check_output_name(command.out, command.input, point_file_extensions());
   check_output_name(command.cells, command.input, io::field_extensions(), "--cells");
   check_output_name(command.dual, command.input, surface_file_extensions(), "--dual");
@@ -169,25 +171,21 @@ void add_cvt_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<CvtCommand>();
   CLI::App& app = *tool.add_subcommand(
       "cvt", "Points in the middle of their Voronoi cells (centroidal Voronoi tessellation)");
+  const OptionGroup add(app);
   add_sampling_options(app, *command, "write the seeds: .csv .npy .obj .ply by extension");
   add_picture_options(app, command->picture);
-  app.add_option("--count,-n", command->count, "so many seeds")
+  add("--count,-n", command->count, "N", "so many seeds")
       ->required()
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("N");
-  app.add_option("--seed", command->seed, "of the Poisson disks that it starts from (default 1)")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("S");
-  app.add_option("--iterations", command->iterations, "at most so many (default 100)")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("N");
-  app.add_option("--tolerance", command->tolerance,
-                 "stop when seeds move by less, in sizes of a cell (default 0.001)")
-      ->type_name("T");
-  app.add_option("--centre", command->centre,
-                 "where a seed moves in its cell: centroid (default), or border: where it is\n"
-                 "farthest from the border")
-      ->type_name("NAME");
+      ->check(CLI::NonNegativeNumber);
+  add("--seed", command->seed, "S", "of the Poisson disks that it starts from (default 1)")
+      ->check(CLI::NonNegativeNumber);
+  add("--iterations", command->iterations, "N", "at most so many (default 100)")
+      ->check(CLI::NonNegativeNumber);
+  add("--tolerance", command->tolerance, "T",
+      "stop when seeds move by less, in sizes of a cell (default 0.001)");
+  add("--centre", command->centre, "NAME",
+      "where a seed moves in its cell: centroid (default), or border: where it is\n"
+      "farthest from the border");
   add_output(app, "--cells", command->cells,
              "write each vertex's distance and cell: .csv .ply .vtk .vtu", "csv");
   add_output(app, "--dual", command->dual, "write the triangles of seeds: .obj .off .ply", "obj");

@@ -1,7 +1,5 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,25 +13,21 @@
 #include <plexway/shape/support.hpp>
 
 #include "executors/same_work.hpp"
-#include "shape/arguments/require.hpp"
-#include "shape/arguments/source_argument.hpp"
-#include "shape/cloud_words.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/fill.hpp"
 #include "shape/info/info_report.hpp"
-#include "shape/info/rank_counts.hpp"
 #include "shape/info/solve_words.hpp"
-#include "shape/inside_field.hpp"
-#include "shape/level_set_file.hpp"
+#include "shape/level_sets.hpp"
 #include "shape/partitioned_field.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/warnings/field_warnings.hpp"
+#include "shape/warnings/sentences.hpp"
 #include "shape/words.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/distance_command.hpp"
 #include "tool/exit_codes.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -176,7 +170,7 @@ void run_distance(DistanceCommand command) {
   if (!command.leads()) command.quiet = true;
   const PropagateOptions wanted = propagate_options(command.solve);
   Precision precision = precision_of(command.solve);
-  if (precision == Precision::twice && command.solve.precision == "float")
+  if (precision == Precision::float64 && command.solve.precision == "float")
     command.solve.precision = "double, which exact distances need";
   Triangulation triangulation = triangulation_of(command.triangulation);
   const std::vector<SetArgument> arguments = parse_source_sets(command.sources);
@@ -212,9 +206,9 @@ void run_distance(DistanceCommand command) {
     // Labels start from them in double precision, and go where paths are refracted.
     const bool by_labels =
         wanted.accuracy.kind() == Accuracy::Kind::fast || !command.metric.text.empty();
-    if (by_labels && precision == Precision::single && !command.solve.precision_given &&
+    if (by_labels && precision == Precision::float32 && !command.solve.precision_given &&
         command.solve.executor.name != "gl") {
-      precision = Precision::twice;
+      precision = Precision::float64;
       command.solve.precision = "double, which labels of lines need";
     }
   }
@@ -345,18 +339,16 @@ void add_distance_command(CLI::App& tool, Action& action, const Among* among) {
   if (among != nullptr) command->solve.executor.name = "openmp";
   CLI::App& app = *tool.add_subcommand(
       "distance", "Geodesic distance of every vertex from one or more sources");
+  const OptionGroup add(app);
   add_inputs(app, *command);
-  app.add_option("--source,-s", command->sources, source_set_help)
+  add("--source,-s", command->sources, "WHERE", source_set_help)
       ->required()
-      ->type_name("WHERE")
       ->allow_extra_args(false);
-  app.add_option(
-         "--out,-o", command->out,
-         "write the distances: .csv .npy .ply .vtk .vtu .glb .gltf (.pcd of clouds,\n"
-         ".vdb of solids) by extension, or - for CSV on standard output, ply:- for a .ply there,\n"
-         "and so on (the summary then goes to standard error); among ranks also .pvtu,\n"
-         "of which each rank writes a part")
-      ->type_name("FILE");
+  add("--out,-o", command->out, "FILE",
+      "write the distances: .csv .npy .ply .vtk .vtu .glb .gltf (.pcd of clouds,\n"
+      ".vdb of solids) by extension, or - for CSV on standard output, ply:- for a .ply there,\n"
+      "and so on (the summary then goes to standard error); among ranks also .pvtu,\n"
+      "of which each rank writes a part");
   app.add_flag("--in-parts", command->in_parts,
                "among ranks: none reads or holds the whole, each has its part. A binary .ply of\n"
                "triangles, or a .pvtu; sources vertex:ID and point:X,Y,Z; results as a .pvtu");

@@ -4,10 +4,8 @@
 #include <vector>
 
 #include "io/field/field_part.hpp"
-#include "tool/among.hpp"
+#include "tool/app.hpp"
 #include "tool/options/input.hpp"
-#include "tool/options/isoline_options.hpp"
-#include "tool/options/metric_options.hpp"
 #include "tool/options/picture_options.hpp"
 #include "tool/options/solve_options.hpp"
 

@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -20,10 +19,7 @@
 
 #include "executors/same_work.hpp"
 #include "executors/threads/rank_mail.hpp"
-#include "shape/arguments/point_argument.hpp"
-#include "shape/arguments/require.hpp"
-#include "shape/arguments/source_argument.hpp"
-#include "shape/info/rank_counts.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/partitioned_field.hpp"
@@ -33,7 +29,6 @@
 #include "tool/exit_codes.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -365,18 +360,18 @@ void run_distance_in_parts(DistanceCommand command) {
   check_isolines(command.isolines, command.input);
   const PropagateOptions options = propagate_options(command.solve);
   const Precision precision = precision_of(command.solve);
-  if (precision == Precision::twice && command.solve.precision == "float")
+  if (precision == Precision::float64 && command.solve.precision == "float")
     command.solve.precision = "double, which exact distances need";
   const Combination cell = with({.executor = kind_of(command.solve.executor),
                                  .domain = DomainKind::surface,
                                  .dimension = 2,
-                                 .single_precision = precision == Precision::single,
+                                 .single_precision = precision == Precision::float32,
                                  .in_parts = true},
                                 options);
   check_support(command, arguments, cell);
   const std::vector<std::string> read = {command.input};
   check_output_place(command.out, read, "--out");
-  if (precision == Precision::single)
+  if (precision == Precision::float32)
     solve_in_parts<float>(command, options, arguments);
   else
     solve_in_parts<double>(command, options, arguments);

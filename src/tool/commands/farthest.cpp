@@ -1,5 +1,3 @@
-#include <CLI/CLI.hpp>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -9,12 +7,12 @@
 #include <plexway/error.hpp>
 #include <plexway/sampling/farthest_points.hpp>
 
-#include "shape/arguments/point_argument.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/point_file.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/sampling_command.hpp"
+#include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -87,17 +85,15 @@ void add_farthest_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<FarthestCommand>();
   CLI::App& app = *tool.add_subcommand(
       "farthest", "Vertices one after the other, each the farthest from those before");
+  const OptionGroup add(app);
   add_sampling_options(app, *command, "write the points and how far each was: .csv .npy .obj .ply");
   add_verbose_option(app, *command);
   add_picture_options(app, command->picture);
-  app.add_option("--count,-n", command->count, "so many points, the first ones included")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("N");
-  app.add_option("--radius,-r", command->radius, "or stop when no vertex is farther than this")
-      ->type_name("R");
-  app.add_option("--source,-s", command->sources,
-                 "where to start: vertex:ID or point:X,Y,Z (default vertex:0); repeatable")
-      ->type_name("WHERE")
+  add("--count,-n", command->count, "N", "so many points, the first ones included")
+      ->check(CLI::NonNegativeNumber);
+  add("--radius,-r", command->radius, "R", "or stop when no vertex is farther than this");
+  add("--source,-s", command->sources, "WHERE",
+      "where to start: vertex:ID or point:X,Y,Z (default vertex:0); repeatable")
       ->allow_extra_args(false);
   app.footer(
       "Examples:\n"

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <variant>
@@ -10,7 +9,6 @@
 #include "tool/commands/commands.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -42,7 +40,8 @@ void run_info(const InfoCommand& command) {
   table.add("input", domain.file().string());
   add_file_report(domain, table);
   table.add(report.table);
-  for (const std::string& note : domain.report().notes) table.add("note", note);
+  if (json.contains("warnings"))
+    for (const Json& note : json["warnings"]) table.add("note", note.get<std::string>());
   write_output(command.json ? json_text(json) : table.text());
   flush_output();
 }

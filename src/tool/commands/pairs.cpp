@@ -1,23 +1,21 @@
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/pairs/distance_matrix.hpp>
 
-#include "shape/arguments/point_argument.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/point_file.hpp"
 #include "shape/warnings/field_warnings.hpp"
-#include "tool/among.hpp"
+#include "tool/app.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/pairs_matrix.hpp"
 #include "tool/commands/sampling_command.hpp"
+#include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -97,10 +95,10 @@ void add_pairs_command(CLI::App& tool, Action& action, const Among* among) {
   command->solve.executor.name = "auto";
   CLI::App& app = *tool.add_subcommand(
       "pairs", "Matrices of distances: between chosen points, or of any size, restartable");
+  const OptionGroup add(app);
   add_input(app, *command);
-  app.add_option("--source,-s", command->points,
-                 "a point of a small symmetric matrix: vertex:ID or point:X,Y,Z; repeat it")
-      ->type_name("WHERE")
+  add("--source,-s", command->points, "WHERE",
+      "a point of a small symmetric matrix: vertex:ID or point:X,Y,Z; repeat it")
       ->allow_extra_args(false);
   add_output(
       app, "--out,-o", command->out,

@@ -1,6 +1,5 @@
 #include "tool/commands/pairs_matrix.hpp"
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -10,23 +9,20 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 #include <plexway/io/sparse_file.hpp>
 
-#include "shape/arguments/point_list.hpp"
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/info/report.hpp"
 #include "shape/kept_build.hpp"
-#include "shape/modules/hdf5_functions.hpp"
+#include "shape/modules/module.hpp"
 #include "shape/pairs/pair_files.hpp"
 #include "shape/pairs/pair_tables.hpp"
-#include "tool/among.hpp"
+#include "tool/app.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 
@@ -248,50 +244,28 @@ Domain load(const MatrixCommand& command, const BuildOptions& building, Progress
 }  // namespace
 
 void add_matrix_options(CLI::App& app, MatrixCommand& command) {
-  const std::string group = "Matrices of any size";
-  app.add_option("--sources", command.sources,
-                 "a row each: all, or FILE with a vertex (0-based) a line or the .csv of\n"
-                 "'plexway farthest'")
-      ->type_name("FILE|all")
-      ->group(group);
-  app.add_option("--targets", command.targets, "a column each, vertices: all (default) or FILE")
-      ->type_name("FILE|all")
-      ->group(group);
-  app.add_option("--type", command.type, "numbers of the matrix: float16, float32 or float64")
-      ->type_name("NAME")
-      ->group(group);
-  app.add_option("--radius", command.radius,
-                 "only what is no farther: a sparse matrix, .npz (scipy, CSR) or .mtx")
-      ->type_name("R")
-      ->group(group);
-  app.add_option("--nearest", command.nearest, "only the K nearest of each row; sparse likewise")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("K")
-      ->group(group);
-  app.add_flag("--symmetric", command.symmetric,
-               "of there and back the shorter distance counts for both")
-      ->group(group);
-  app.add_option("--labels", command.labels,
-                 "a label a vertex, a line each (below 0: none) or .label.gii: --out is then\n"
-                 "the mean distance between parcels, .npy or .csv")
-      ->type_name("FILE")
-      ->group(group);
-  app.add_option("--stats", command.stats,
-                 "of each row: how many are reached, mean, largest, farthest vertex; .csv")
-      ->type_name("FILE")
-      ->group(group);
-  app.add_option("--histogram", command.histogram, "how many distances of which size; .csv")
-      ->type_name("FILE")
-      ->group(group);
-  app.add_option("--bin-width", command.bin_width, "of the histogram")
-      ->type_name("X")
-      ->group(group);
-  app.add_option("--bins", command.bins, "of the histogram (default 100); the last has the rest")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("N")
-      ->group(group);
-  app.add_flag("--estimate", command.estimate, "only say how long it will take, and how many bytes")
-      ->group(group);
+  const OptionGroup add(app, "Matrices of any size");
+  add("--sources", command.sources, "FILE|all",
+      "a row each: all, or FILE with a vertex (0-based) a line or the .csv of\n"
+      "'plexway farthest'");
+  add("--targets", command.targets, "FILE|all", "a column each, vertices: all (default) or FILE");
+  add("--type", command.type, "NAME", "numbers of the matrix: float16, float32 or float64");
+  add("--radius", command.radius, "R",
+      "only what is no farther: a sparse matrix, .npz (scipy, CSR) or .mtx");
+  add("--nearest", command.nearest, "K", "only the K nearest of each row; sparse likewise")
+      ->check(CLI::NonNegativeNumber);
+  add.flag("--symmetric", command.symmetric,
+           "of there and back the shorter distance counts for both");
+  add("--labels", command.labels, "FILE",
+      "a label a vertex, a line each (below 0: none) or .label.gii: --out is then\n"
+      "the mean distance between parcels, .npy or .csv");
+  add("--stats", command.stats, "FILE",
+      "of each row: how many are reached, mean, largest, farthest vertex; .csv");
+  add("--histogram", command.histogram, "FILE", "how many distances of which size; .csv");
+  add("--bin-width", command.bin_width, "X", "of the histogram");
+  add("--bins", command.bins, "N", "of the histogram (default 100); the last has the rest")
+      ->check(CLI::NonNegativeNumber);
+  add.flag("--estimate", command.estimate, "only say how long it will take, and how many bytes");
 }
 
 std::string only_for_matrices(const MatrixCommand& command) {

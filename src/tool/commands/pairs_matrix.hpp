@@ -5,12 +5,7 @@
 #include <string>
 
 #include "tool/options/input.hpp"
-#include "tool/options/metric_options.hpp"
 #include "tool/options/solve_options.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace plexway::cli {
 

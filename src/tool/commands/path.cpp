@@ -1,10 +1,6 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
-#include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,19 +14,16 @@
 #include <plexway/shape/warnings.hpp>
 
 #include "io/number_rows.hpp"
-#include "shape/arguments/point_argument.hpp"
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/shape_state.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/exit_codes.hpp"
 #include "tool/options/input.hpp"
-#include "tool/options/metric_options.hpp"
 #include "tool/options/picture_options.hpp"
 #include "tool/options/solve_options.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -325,18 +318,17 @@ void run_path(const PathCommand& typed) {
 void add_path_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<PathCommand>();
   CLI::App& app = *tool.add_subcommand("path", "Shortest paths from sources to targets");
+  const OptionGroup add(app);
   add_inputs(app, *command);
-  app.add_option("--from,-f", command->from,
-                 "vertex:ID (0-based, file order) or point:X,Y,Z (closest point of the\n"
-                 "domain); repeat it for several sources, paths then lead to the nearest")
+  add("--from,-f", command->from, "WHERE",
+      "vertex:ID (0-based, file order) or point:X,Y,Z (closest point of the\n"
+      "domain); repeat it for several sources, paths then lead to the nearest")
       ->required()
-      ->type_name("WHERE")
       ->allow_extra_args(false);
-  app.add_option("--to,-t", command->to,
-                 "the same, or vertices:FILE with one a line; repeat it for several targets, a\n"
-                 "path each")
+  add("--to,-t", command->to, "WHERE",
+      "the same, or vertices:FILE with one a line; repeat it for several targets, a\n"
+      "path each")
       ->required()
-      ->type_name("WHERE")
       ->allow_extra_args(false);
   add_output(app, "--out,-o", command->out,
              "write the paths: .obj (lines), .ply, .vtp or .json by extension, each from its\n"
@@ -344,12 +336,10 @@ void add_path_command(CLI::App& tool, Action& action) {
              "json");
   app.add_flag("--astar", command->astar,
                "surfaces: look only at what a shortest path may pass, instead of everything");
-  app.add_option(
-         "--margin", command->trace.margin,
-         "surfaces and clouds: the path is the shortest of all where distances are too long\n"
-         "by no more than this share (default 0.003, on surfaces with --accuracy fast alone);\n"
-         "0 is quicker, and locally shortest")
-      ->type_name("X");
+  add("--margin", command->trace.margin, "X",
+      "surfaces and clouds: the path is the shortest of all where distances are too long\n"
+      "by no more than this share (default 0.003, on surfaces with --accuracy fast alone);\n"
+      "0 is quicker, and locally shortest");
   add_solve_options(app, command->solve, false);
   add_triangulation_option(app, command->triangulation);
   add_metric_option(app, command->metric);

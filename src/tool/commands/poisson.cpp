@@ -1,6 +1,3 @@
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -14,8 +11,8 @@
 #include "shape/point_file.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/commands/sampling_command.hpp"
+#include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -47,8 +44,9 @@ void run_poisson(const PoissonCommand& command) {
   if (command.radius && (!(*command.radius > 0) || std::isinf(*command.radius)))
     throw UsageError("--radius must be a number > 0");
   if (command.count && *command.count == 0) throw UsageError("--count must be > 0");
-  if (command.order != "uniform" && command.order != "simplices")
-    throw UsageError("--order '" + command.order + "': choose one of uniform, simplices");
+  const auto order =
+      choose<DartOrder>("--order", command.order,
+                        {{"uniform", DartOrder::uniform}, {"simplices", DartOrder::simplices}});
   check_output_name(command.out, command.input, point_file_extensions());
   check_picture(command.picture, command.input);
   check_output_place(command.out, {&command.spacing, 1}, "--out");
@@ -67,7 +65,7 @@ void run_poisson(const PoissonCommand& command) {
   options.radius = command.radius.value_or(0);
   options.count = command.count.value_or(0);
   options.seed = command.seed;
-  options.order = command.order == "uniform" ? DartOrder::uniform : DartOrder::simplices;
+  options.order = order;
   options.at_vertices = command.vertices;
   options.spacing = spacing;
   options.progress = [&](double share) {
@@ -125,25 +123,21 @@ void add_poisson_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<PoissonCommand>();
   CLI::App& app = *tool.add_subcommand(
       "poisson", "Points no nearer to each other than a radius, and none missing (Poisson disks)");
+  const OptionGroup add(app);
   add_sampling_options(app, *command, "write the points: .csv .npy .obj .ply by extension");
   add_verbose_option(app, *command);
   add_picture_options(app, command->picture);
-  app.add_option("--radius,-r", command->radius,
-                 "no two points are nearer, no point of the domain is farther")
-      ->type_name("R");
-  app.add_option("--count,-n", command->count, "or so many points; the radius is searched for")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("N");
-  app.add_option("--seed", command->seed, "another number, another sample (default 1)")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("S");
-  app.add_option("--order", command->order,
-                 "where darts go: uniform (default), or simplices: one after the other in\n"
-                 "random order, denser where they are small")
-      ->type_name("NAME");
-  app.add_option("--spacing", command->spacing,
-                 "a number a line for each vertex: the radius there is R times that")
-      ->type_name("FILE");
+  add("--radius,-r", command->radius, "R",
+      "no two points are nearer, no point of the domain is farther");
+  add("--count,-n", command->count, "N", "or so many points; the radius is searched for")
+      ->check(CLI::NonNegativeNumber);
+  add("--seed", command->seed, "S", "another number, another sample (default 1)")
+      ->check(CLI::NonNegativeNumber);
+  add("--order", command->order, "NAME",
+      "where darts go: uniform (default), or simplices: one after the other in\n"
+      "random order, denser where they are small");
+  add("--spacing", command->spacing, "FILE",
+      "a number a line for each vertex: the radius there is R times that");
   app.add_flag("--vertices", command->vertices, "only vertices are chosen, and only they covered");
   app.footer(
       "Examples:\n"

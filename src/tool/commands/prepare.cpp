@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +15,6 @@
 #include "tool/options/solve_options.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -91,18 +89,17 @@ void add_prepare_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<PrepareCommand>();
   CLI::App& app = *tool.add_subcommand(
       "prepare", "Builds a domain once and keeps it in a file that opens at once");
+  const OptionGroup add(app);
   add_input(app, *command);
-  app.add_option("--out,-o", command->out,
-                 "write NAME.plexway, an INPUT for every command: for this version of plexway and\n"
-                 "machines of this byte order. A command that asks for another precision or\n"
-                 "triangulation than what was prepared builds anew, from the file alone")
-      ->required()
-      ->type_name("FILE");
-  app.add_option("--precision", command->precision, "float (default) or double")->type_name("NAME");
+  add("--out,-o", command->out, "FILE",
+      "write NAME.plexway, an INPUT for every command: for this version of plexway and\n"
+      "machines of this byte order. A command that asks for another precision or\n"
+      "triangulation than what was prepared builds anew, from the file alone")
+      ->required();
+  add("--precision", command->precision, "NAME", "float (default) or double");
   add_triangulation_option(app, command->triangulation);
-  app.add_option("--threads", command->threads, "that build it (default: all cores)")
-      ->check(CLI::Range(1, 1024))
-      ->type_name("N");
+  add("--threads", command->threads, "N", "that build it (default: all cores)")
+      ->check(CLI::Range(1, 1024));
   add_input_options(app, *command);
   app.footer(
       "Examples:\n"

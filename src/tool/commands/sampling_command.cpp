@@ -1,6 +1,5 @@
 #include "tool/commands/sampling_command.hpp"
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -8,7 +7,7 @@
 #include <plexway/shape/shape.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "complexes/common/disjoint_sets.hpp"
+#include "shape/warnings/survey.hpp"
 #include "tool/report/distance_report.hpp"
 
 namespace plexway {
@@ -24,18 +23,10 @@ struct Parts {
 /// Those in which none of the points lies. A vertex in no simplex is no part. Cost: linear, nearly.
 Parts parts_without(const AnyShape& shape, std::span<const PointSource> points) {
   const std::size_t n = shape.vertices();
-  DisjointSets sets(n);
+  DisjointSets sets = joined_vertices(shape);
   std::vector<bool> used(n, shape.cloud() != nullptr);
-  for (std::size_t s = 0; s < shape.simplices(); ++s) {
-    const auto corners = shape.corners(s);
-    for (const Index v : corners) {
-      used[v] = true;
-      sets.unite(v, corners.front());
-    }
-  }
-  if (const CloudShape* cloud = shape.cloud())
-    for (Index v = 0; v < cloud->neighbours.point_count(); ++v)
-      for (const Index w : cloud->neighbours.around(v)) sets.unite(v, w);
+  for (std::size_t s = 0; s < shape.simplices(); ++s)
+    for (const Index v : shape.corners(s)) used[v] = true;
   std::vector<bool> taken(n, false);
   for (const PointSource& point : points)
     taken[sets.find(point.vertex != none ? point.vertex : shape.corners(point.simplex).front())] =
@@ -57,11 +48,11 @@ Parts parts_without(const AnyShape& shape, std::span<const PointSource> points) 
 namespace plexway::cli {
 
 void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* out_help) {
+  const OptionGroup add(app);
   add_input(app, command, "a surface, a solid or a cloud, as for 'plexway distance'");
   add_output(app, "--out,-o", command.out, std::string(out_help) + output_help, "csv");
-  app.add_option("--precision", command.precision, "float (default) or double")
-      ->each([&command](const std::string&) { command.precision_given = true; })
-      ->type_name("NAME");
+  add("--precision", command.precision, "NAME", "float (default) or double")
+      ->each([&command](const std::string&) { command.precision_given = true; });
   add_input_options(app, command);
 }
 

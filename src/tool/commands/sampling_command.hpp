@@ -3,22 +3,16 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 
 #include <plexway/error.hpp>
 #include <plexway/solve/distance_field.hpp>
 
 #include <plexway/shape/complex.hpp>
 #include "shape/info/report.hpp"
-#include "tool/options/fill_options.hpp"
 #include "tool/options/input.hpp"
 #include "tool/options/picture_options.hpp"
 #include "tool/options/solve_options.hpp"
 #include "tool/report/console.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace plexway::cli {
 

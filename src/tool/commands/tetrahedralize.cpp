@@ -1,8 +1,3 @@
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <limits>
 #include <memory>
 #include <string>
 #include <variant>
@@ -10,15 +5,14 @@
 #include <plexway/io/tets.hpp>
 #include <plexway/shape/support.hpp>
 
-#include "shape/arguments/require.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/fill.hpp"
+#include "shape/info/info_report.hpp"
 #include "shape/info/report.hpp"
-#include "shape/warnings/solid_survey.hpp"
 #include "tool/commands/commands.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -41,7 +35,7 @@ void run_tetrahedralize(const TetrahedralizeCommand& command) {
   progress.phase("writing " + command.out);
   io::write_tets(command.out, solid);
   progress.clear();
-  const SolidSurvey survey = survey_solid(solid);
+  const SolidSurvey survey = survey_solid(domain);
   Json json;
   json["input"] = command.input;
   json["out"] = command.out;

@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -10,7 +9,6 @@
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/distance_report.hpp"
-#include "tool/report/progress.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -25,28 +23,18 @@ struct TuneCommand : TuningRequest {
   bool quiet = false;
 };
 
-void check(const TuneCommand& command) {
-  const auto choose = [](const char* option, const std::string& typed, const std::string& a,
-                         const std::string& b) {
-    if (typed != a && typed != b)
-      throw UsageError(std::string(option) + " '" + typed + "': choose one of " + a + ", " + b);
-  };
-  choose("--what", command.what, "table", "saddles");
-  choose("--fitness", command.fitness, "mean", "relative");
-  choose("--step-rule", command.step_rule, "fifth", "constant");
-  choose("--triangulation", command.triangulation, "input", "auto");
+void run_tune(const TuneCommand& command) {
+  TuningRequest request = command;
+  request.table = choose<bool>("--what", command.what, {{"table", true}, {"saddles", false}});
+  request.relative =
+      choose<bool>("--fitness", command.fitness, {{"mean", false}, {"relative", true}});
+  request.evolution.adapt =
+      choose<bool>("--step-rule", command.step_rule, {{"fifth", true}, {"constant", false}});
+  request.automatic =
+      choose<bool>("--triangulation", command.triangulation, {{"input", false}, {"auto", true}});
   if (command.resume && command.checkpoint.empty())
     throw UsageError("--resume goes with --checkpoint FILE");
   check_outputs_differ({command.out, command.cpp, command.checkpoint});
-}
-
-void run_tune(const TuneCommand& command) {
-  check(command);
-  TuningRequest request = command;
-  request.table = command.what == "table";
-  request.relative = command.fitness == "relative";
-  request.automatic = command.triangulation == "auto";
-  request.evolution.adapt = command.step_rule == "fifth";
   ProgressLine progress(command.quiet);
   const TuningOutcome outcome = run_tuning(request, read_progress(progress));
   progress.clear();
@@ -90,59 +78,46 @@ void add_tune_command(CLI::App& tool, Action& action) {
   auto command = std::make_shared<TuneCommand>();
   CLI::App& app = *tool.add_subcommand(
       "tune", "Fit a policy to surfaces with exact answers, by a (1+1) evolution strategy");
-  app.add_option("INPUT", command->inputs,
-                 "surfaces, each with the exact answers NAME.vID.txt beside it:\n"
-                 "distances from vertex ID, one a line in vertex order")
-      ->type_name("FILE")
+  const OptionGroup add(app);
+  add("INPUT", command->inputs, "FILE",
+      "surfaces, each with the exact answers NAME.vID.txt beside it:\n"
+      "distances from vertex ID, one a line in vertex order")
       ->required();
-  app.add_option("--truth-dir", command->truth_folder, "the exact answers are in this folder")
-      ->type_name("DIR");
-  app.add_option("--what", command->what,
-                 "table (default): thresholds and shares of --visibility tuned;\n"
-                 "saddles: which vertices the default policy bends paths at")
-      ->type_name("NAME");
-  app.add_option("--from", command->from,
-                 "where the first start begins: random (default); of a table centroid,\n"
-                 "published, learned; of saddles standard; or a .json of this command")
-      ->type_name("NAME");
-  app.add_option("--seed", command->evolution.seed, "another number, another result (default 1)")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("S");
-  app.add_option("--evaluations", command->evolution.evaluations, "of each start (default 300)")
-      ->check(CLI::Range(1, 1'000'000))
-      ->type_name("N");
-  app.add_option("--restarts", command->evolution.restarts,
-                 "so many starts, all but the first at random; the best counts (default 1)")
-      ->check(CLI::Range(1, 10'000))
-      ->type_name("N");
-  app.add_option("--mutation", command->evolution.step,
-                 "first standard deviation, as a share of each range (default 0.2)")
-      ->type_name("X");
-  app.add_option("--fitness", command->fitness,
-                 "what is made small: mean (default), the mean error of all fields; or\n"
-                 "relative: the geometric mean of each beside what centroid (standard)\n"
-                 "has there")
-      ->type_name("NAME");
-  app.add_option("--step-rule", command->step_rule,
-                 "fifth (default): the deviation follows the one-fifth rule; or constant")
-      ->type_name("NAME");
-  app.add_option("--triangulation", command->triangulation,
-                 "input (default), or auto: the triangles that 'distance' would choose")
-      ->type_name("NAME");
-  app.add_option("--threads", command->threads,
-                 "fields at once (default: all cores); the result does not depend on it")
-      ->check(CLI::Range(1, 4096))
-      ->type_name("N");
-  app.add_option("--out,-o", command->out, "write what was found as JSON")->type_name("FILE");
-  app.add_option("--cpp", command->cpp, "write it as C++")->type_name("FILE");
-  app.add_option("--checkpoint", command->checkpoint,
-                 "keep here where it is, every few seconds and at the end")
-      ->type_name("FILE");
+  add("--truth-dir", command->truth_folder, "DIR", "the exact answers are in this folder");
+  add("--what", command->what, "NAME",
+      "table (default): thresholds and shares of --visibility tuned;\n"
+      "saddles: which vertices the default policy bends paths at");
+  add("--from", command->from, "NAME",
+      "where the first start begins: random (default); of a table centroid,\n"
+      "published, learned; of saddles standard; or a .json of this command");
+  add("--seed", command->evolution.seed, "S", "another number, another result (default 1)")
+      ->check(CLI::NonNegativeNumber);
+  add("--evaluations", command->evolution.evaluations, "N", "of each start (default 300)")
+      ->check(CLI::Range(1, 1'000'000));
+  add("--restarts", command->evolution.restarts, "N",
+      "so many starts, all but the first at random; the best counts (default 1)")
+      ->check(CLI::Range(1, 10'000));
+  add("--mutation", command->evolution.step, "X",
+      "first standard deviation, as a share of each range (default 0.2)");
+  add("--fitness", command->fitness, "NAME",
+      "what is made small: mean (default), the mean error of all fields; or\n"
+      "relative: the geometric mean of each beside what centroid (standard)\n"
+      "has there");
+  add("--step-rule", command->step_rule, "NAME",
+      "fifth (default): the deviation follows the one-fifth rule; or constant");
+  add("--triangulation", command->triangulation, "NAME",
+      "input (default), or auto: the triangles that 'distance' would choose");
+  add("--threads", command->threads, "N",
+      "fields at once (default: all cores); the result does not depend on it")
+      ->check(CLI::Range(1, 4096));
+  add("--out,-o", command->out, "FILE", "write what was found as JSON");
+  add("--cpp", command->cpp, "FILE", "write it as C++");
+  add("--checkpoint", command->checkpoint, "FILE",
+      "keep here where it is, every few seconds and at the end");
   app.add_flag("--resume", command->resume, "go on from the checkpoint");
-  app.add_option("--stop-after", command->stop_after,
-                 "stop after so many evaluations in this run, to be resumed")
-      ->check(CLI::Range(1, 1'000'000'000))
-      ->type_name("N");
+  add("--stop-after", command->stop_after, "N",
+      "stop after so many evaluations in this run, to be resumed")
+      ->check(CLI::Range(1, 1'000'000'000));
   app.add_flag("--json", command->json, "print one JSON object");
   app.add_flag("--quiet,-q", command->quiet, "no summary, no notes, no progress");
   app.footer(

@@ -1,6 +1,3 @@
-#include "tool/options/picture_options.hpp"
-
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <string_view>
 
@@ -8,17 +5,18 @@
 #include <plexway/io/page.hpp>
 #include <plexway/shape/support.hpp>
 
+#include "io/extension.hpp"
+#include "io/field/colour_map.hpp"
+#include "shape/arguments/arguments.hpp"
+#include "shape/level_sets.hpp"
+#include "shape/scene.hpp"
+#include "tool/options/picture_options.hpp"
+#include "tool/report/console.hpp"
+#include "tool/report/distance_report.hpp"
+
 #ifdef PLEXWAY_HAS_RENDER
 #include <plexway/render/picture.hpp>
 #endif
-
-#include "io/extension.hpp"
-#include "io/field/colour_map.hpp"
-#include "shape/arguments/require.hpp"
-#include "shape/shape_page.hpp"
-#include "shape/up_axis.hpp"
-#include "tool/report/console.hpp"
-#include "tool/report/distance_report.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -65,9 +63,7 @@ std::array<double, 2> range_of(const std::string& text) {
 }
 
 void check_up(const std::string& text) {
-  if (text.empty()) return;
-  if (text != "x" && text != "y" && text != "z")
-    throw UsageError("--up '" + text + "': choose one of x, y, z");
+  if (!text.empty()) choose<char>("--up", text, {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}});
 }
 
 io::Page page_of(const PictureArguments& arguments) {
@@ -166,6 +162,7 @@ render::PictureOptions options_of(const PictureArguments& arguments) {
 }  // namespace
 
 void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells) {
+  const OptionGroup add(app);
   add_output(
       app, "--picture", arguments.file,
       "draw a picture without a display: .png, or .svg, whose lines and text are drawn over\n"
@@ -175,36 +172,27 @@ void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells)
              "a page to turn in a browser: one file, no network; --up, --range, --map and --title\n"
              "go with it",
              "html");
-  app.add_option("--view", arguments.view,
-                 "from where: front, back, left, right, top, bottom, iso, or AZ,EL in\n"
-                 "degrees around the front (default: from above if flat, else 28,24)")
-      ->type_name("VIEW");
-  app.add_option("--up", arguments.up,
-                 "which axis points up: x, y or z (default: y or z, by the shape)")
-      ->type_name("AXIS");
-  app.add_option("--size", arguments.size, "pixels (default 800x600)")->type_name("WxH");
-  app.add_option("--range", arguments.range,
-                 "values at the ends of the colour bar (default: the field's own)")
-      ->type_name("LO,HI");
-  app.add_option("--isolines", arguments.isolines,
-                 "so many lines of equal value, 0 for none (default: at round numbers)")
-      ->check(CLI::Range(0, 10000))
-      ->type_name("N");
-  app.add_option("--map", arguments.map, "colours: viridis (default), magma, cividis")
-      ->type_name("NAME");
+  add("--view", arguments.view, "VIEW",
+      "from where: front, back, left, right, top, bottom, iso, or AZ,EL in\n"
+      "degrees around the front (default: from above if flat, else 28,24)");
+  add("--up", arguments.up, "AXIS",
+      "which axis points up: x, y or z (default: y or z, by the shape)");
+  add("--size", arguments.size, "WxH", "pixels (default 800x600)");
+  add("--range", arguments.range, "LO,HI",
+      "values at the ends of the colour bar (default: the field's own)");
+  add("--isolines", arguments.isolines, "N",
+      "so many lines of equal value, 0 for none (default: at round numbers)")
+      ->check(CLI::Range(0, 10000));
+  add("--map", arguments.map, "NAME", "colours: viridis (default), magma, cividis");
   if (cells)
-    app.add_option("--colour", arguments.colour,
-                   "what colours show: distance (default), or cells: the nearest source")
-        ->type_name("WHAT");
-  app.add_option("--clip", arguments.clip,
-                 "cut open: x, y or z through the middle, the near half goes; or a plane,\n"
-                 "beyond which all goes")
-      ->type_name("x|y|z|NX,NY,NZ,D");
-  app.add_option("--isosurfaces", arguments.isosurfaces,
-                 "of a solid: surfaces of these values inside")
-      ->type_name("V,V,...");
-  app.add_option("--title", arguments.title, "over the colour bar (default 'distance')")
-      ->type_name("TEXT");
+    add("--colour", arguments.colour, "WHAT",
+        "what colours show: distance (default), or cells: the nearest source");
+  add("--clip", arguments.clip, "x|y|z|NX,NY,NZ,D",
+      "cut open: x, y or z through the middle, the near half goes; or a plane,\n"
+      "beyond which all goes");
+  add("--isosurfaces", arguments.isosurfaces, "V,V,...",
+      "of a solid: surfaces of these values inside");
+  add("--title", arguments.title, "TEXT", "over the colour bar (default 'distance')");
   app.add_flag("--orthographic", arguments.orthographic, "parallel lines stay parallel");
   app.add_flag("--transparent", arguments.transparent, "no background");
   app.add_flag("--small", arguments.small, "256 colours, a quarter of the bytes");
@@ -236,8 +224,8 @@ void check_picture(const PictureArguments& arguments, const std::string& input) 
   }
 #ifdef PLEXWAY_HAS_RENDER
   static_cast<void>(options_of(arguments));
-  if (!arguments.colour.empty() && arguments.colour != "distance" && arguments.colour != "cells")
-    throw UsageError("--colour '" + arguments.colour + "': choose one of distance, cells");
+  if (!arguments.colour.empty())
+    choose<bool>("--colour", arguments.colour, {{"distance", false}, {"cells", true}});
   check_output_name(arguments.file, input, picture_extensions, "--picture");
 #else
   static_cast<void>(input);
@@ -279,5 +267,41 @@ void write_picture(const PictureArguments& arguments, const Domain& domain,
 }
 
 #endif
+
+void add_isoline_options(CLI::App& command, IsolineOptions& options) {
+  const OptionGroup add(command);
+  add("--isoline-step", options.step, "STEP",
+      "lines on a surface or a cloud, or surfaces in a solid, at each multiple of this\n"
+      "distance, for --isolines-out");
+  add_output(command, "--isolines-out", options.out,
+             "where to: .obj (lines), .ply, .vtp or .json; of a solid .obj, .off, .ply, .stl,\n"
+             ".glb, .gltf or .vtu (triangles); - for .obj on standard output",
+             "obj");
+}
+
+void check_isolines(const IsolineOptions& options, const std::string& input) {
+  if (options.out.empty() != !options.step)
+    throw UsageError("give --isoline-step STEP and --isolines-out FILE both");
+  if (options.step && !(*options.step > 0 && std::isfinite(*options.step)))
+    throw UsageError("--isoline-step: the step must be > 0");
+  check_output_name(options.out, input, level_set_extensions(), "--isolines-out");
+}
+
+void check_isolines(const IsolineOptions& options, const Domain& domain) {
+  if (options.out.empty()) return;
+  check_output_name(options.out, domain.file().string(), level_set_extensions(domain.kind()),
+                    "--isolines-out");
+}
+
+std::vector<double> isoline_values(const IsolineOptions& options,
+                                   std::span<const double> distance) {
+  if (options.out.empty()) return {};
+  std::vector<double> values = level_set_values(distance, *options.step);
+  const std::string extension = io::lower_extension(options.out);
+  if (values.empty() && (extension == ".glb" || extension == ".gltf"))
+    throw UsageError("--isolines-out " + options.out + ": would hold nothing, which a " +
+                     extension + " cannot: no distance is as large as the step");
+  return values;
+}
 
 }  // namespace plexway::cli

@@ -1,6 +1,5 @@
 #include "tool/report/distance_report.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
@@ -68,15 +67,6 @@ void append(std::string& text, Number value) {
 }
 
 }  // namespace
-
-void add_output(CLI::App& command, const std::string& name, std::string& out,
-                const std::string& help, const char* usual) {
-  const std::string on_output = std::string(usual) + ":-";
-  command.add_option(name, out, help)
-      ->type_name("FILE")
-      ->transform(
-          [on_output](const std::string& given) { return given == "-" ? on_output : given; });
-}
 
 void print_report(const Json& json, const Table& table, bool as_json, bool quiet,
                   std::initializer_list<std::string> files) {

@@ -11,12 +11,8 @@
 #include <plexway/solve/distance_field.hpp>
 
 #include "io/output_place.hpp"
-#include "shape/info/rank_counts.hpp"
 #include "shape/info/report.hpp"
-
-namespace CLI {
-class App;
-}
+#include "shape/info/solve_words.hpp"
 
 namespace plexway::cli {
 
@@ -37,10 +33,6 @@ struct DistanceReport {
 void add_report(const DistanceReport& report, Json& json);
 void add_report(const DistanceReport& report, Table& table, bool verbose);
 ///@}
-
-/// Adds an option that names an output; "-" becomes "USUAL:-", standard output in that format.
-void add_output(CLI::App& command, const std::string& name, std::string& out,
-                const std::string& help, const char* usual);
 
 using io::check_output_name;
 using io::check_output_place;

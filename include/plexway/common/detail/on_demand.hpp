@@ -12,6 +12,11 @@ namespace plexway {
 /// it, and any number of threads may want it at once.
 class OnDemand {
  public:
+  OnDemand() = default;
+  OnDemand(const OnDemand&) = default;
+  OnDemand& operator=(const OnDemand&) = default;
+  ~OnDemand() {}  // clang 14 emits no defaulted one for wasm, and then wants it
+
   /// What make(), a shared pointer to a T that knows its bytes(), gives; it is called once.
   template <class T, class Make>
   std::shared_ptr<const T> get(const Make& make) const {

@@ -1,9 +1,9 @@
-// The tool's module for HDF5: see shape/modules/hdf5_functions.hpp.
+// The tool's module for HDF5: see shape/modules/module.hpp.
 
 #include <io/hdf5/include/plexway/hdf5/matrix.hpp>
 
-#include "file/unfinished.hpp"
-#include "shape/modules/hdf5_functions.hpp"
+#include "file/new_file.hpp"
+#include "shape/modules/module.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-// The tool's module for OpenVDB: see shape/modules/openvdb_functions.hpp.
+// The tool's module for OpenVDB: see shape/modules/module.hpp.
 
 #include <cstdio>
 #include <utility>
@@ -8,8 +8,8 @@
 #include <plexway/openvdb/solid.hpp>
 #include <plexway/openvdb/surface.hpp>
 
-#include "file/unfinished.hpp"
-#include "shape/modules/openvdb_functions.hpp"
+#include "file/new_file.hpp"
+#include "shape/modules/module.hpp"
 
 namespace {
 

@@ -1,12 +1,12 @@
-// The tool's module for PCL: see shape/modules/pcl_functions.hpp.
+// The tool's module for PCL: see shape/modules/module.hpp.
 
 #include <utility>
 
 #include <plexway/pcl/files.hpp>
 #include <plexway/pcl/filters.hpp>
 
-#include "file/unfinished.hpp"
-#include "shape/modules/pcl_functions.hpp"
+#include "file/new_file.hpp"
+#include "shape/modules/module.hpp"
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include <span>
 
 #include <plexway/cloud/neighbours.hpp>
+#include <plexway/common/rows_of.hpp>
 
 /// The component `flann`, link plexway::flann: neighbours of points, by FLANN.
 namespace plexway::flann {
@@ -49,6 +50,14 @@ struct NeighbourOptions {
 /// Cost: 1.1 times as much; where rows are far apart, as for the k that it takes.
 [[nodiscard]] Neighbours surface_neighbours(std::span<const std::array<double, 3>> points,
                                             const NeighbourOptions& options = {});
+
+/// The same of points in an array of any kind (rows_of).
+template <RowsOfNumbers Points>
+requires(!PlainRows<Points, double, 3>) [[nodiscard]] Neighbours
+    surface_neighbours(const Points& points, const NeighbourOptions& options = {}) {
+  return surface_neighbours(std::span<const std::array<double, 3>>(rows_of<double, 3>(points)),
+                            options);
+}
 
 /// The smallest k with which all points are connected over neighbours, or nothing if it is above
 /// `most`. Radius and symmetry of `options` do not count. Throws as above. Cost: as for a search

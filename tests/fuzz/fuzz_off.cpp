@@ -1,5 +1,0 @@
-#include "fuzz_reader.hpp"
-
-PLEXWAY_FUZZER(off)(const std::uint8_t* data, std::size_t size) {
-  return fuzz::check_reader(plexway::io::parse_off, data, size);
-}
