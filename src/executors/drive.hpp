@@ -9,7 +9,6 @@
 #include <plexway/surface/triangle_mesh.hpp>
 
 #include "executors/threads/piece_scheduler.hpp"
-#include "executors/threads/piece_size.hpp"
 #include "executors/threads/scheduler.hpp"
 #include "labels/alone.hpp"
 #include "labels/finish.hpp"

@@ -6,6 +6,7 @@
 
 #include <plexway/domain/domains.hpp>
 #include <plexway/executors/piece_ranks.hpp>
+#include <plexway/executors/surface_parts.hpp>
 #include <plexway/solve/options.hpp>
 #include <plexway/source/source_list.hpp>
 
@@ -26,6 +27,13 @@ void check_same_work(PieceRanks& ranks, const SourceList& sources, const Propaga
 /// Likewise for words, such as the names of outputs: throws UsageError that says of `what` they
 /// differ, in every process.
 void check_same_words(PieceRanks& ranks, std::span<const std::string> words, const char* what);
+
+/// Have all processes the same rows? Each row is read by the process whose range it is in, and by
+/// another; who that is changes within the range. What is in nobody's way, a row that differs where
+/// no process takes it from, is not looked for. All processes call it. Throws InputError in all
+/// of them where the two do not agree, and what reading throws. Cost: two reads of a process's
+/// share, and a reduction.
+void check_same_rows(PieceRanks& ranks, const SurfaceRows& rows);
 
 #define PLEXWAY_SAME_WORK(...)                                                             \
   extern template void check_same_work(PieceRanks&, const __VA_ARGS__&, const SourceList&, \

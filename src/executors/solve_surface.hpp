@@ -1,8 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <span>
 #include <type_traits>
@@ -23,30 +21,15 @@ namespace plexway::surface {
 template <class Real, bool kLabels>
 void read_out_sources(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
                       WorkspaceState<Real>& workspace, std::span<const Index> numbers = {}) {
-  const auto offer = [&](Index v, double d, std::size_t number) {
-    if (!(static_cast<Real>(d) < workspace.vertex[v]) &&
-        !(kLabels && static_cast<Real>(d) == workspace.vertex[v]))
-      return;
-    workspace.vertex[v] = static_cast<Real>(d);
-    if constexpr (kLabels)
-      workspace.vertex_source[v] = numbers.empty() ? static_cast<Index>(number) : numbers[number];
-  };
-  for (std::size_t n = sources.size(); n-- > 0;) {
-    const double sigma = sources[n].offset / mesh.unit();
-    if (sources[n].vertex != none) {
-      offer(mesh.inside_vertex(sources[n].vertex), sigma, n);
-      continue;
-    }
-    const auto [f, turned] = mesh.inside_face(sources[n].simplex);
-    const TriangleRecord<Real>& t = mesh.triangles()[f];
-    std::array<double, 4> b = sources[n].barycentric;
-    if (turned) std::swap(b[1], b[2]);
-    const double px[3] = {0, static_cast<double>(t.length[0]), static_cast<double>(t.apex_x(0))};
-    const double py[3] = {0, 0, static_cast<double>(t.apex_h(0))};
-    const double x = b[1] * px[1] + b[2] * px[2], y = b[2] * py[2];
-    for (std::size_t i = 0; i < 3; ++i)
-      offer(t.corner[i], b[i] == 1 ? sigma : sigma + std::hypot(px[i] - x, py[i] - y), n);
-  }
+  for (std::size_t n = sources.size(); n-- > 0;)
+    offer_source(mesh, sources[n], [&](Index v, double d) {
+      const auto distance = static_cast<Real>(d);
+      if (!(distance < workspace.vertex[v]) && !(kLabels && distance == workspace.vertex[v]))
+        return;
+      workspace.vertex[v] = distance;
+      if constexpr (kLabels)
+        workspace.vertex_source[v] = numbers.empty() ? static_cast<Index>(n) : numbers[n];
+    });
 }
 
 /// Nothing but points.
@@ -77,8 +60,6 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
   if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
   if constexpr (requires { scheduler.read_out(workspace); })
     scheduler.read_out(workspace);
-  else if constexpr (requires { scheduler.team(); })
-    read_out_triangles<Real, kLabels>(scheduler.team(), mesh.triangles(), rule, front, workspace);
   else
     read_out_triangles<Real, kLabels>(mesh.triangles(), rule, front, workspace);
   if (mesh.summary().refracting_edges > 0)  // where lengths are no metric, light may gain on itself

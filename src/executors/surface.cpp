@@ -4,7 +4,7 @@
 #include "executors/run.hpp"
 #include "executors/solve_surface.hpp"
 #include "executors/supported.hpp"
-#include "executors/threads/window_team.hpp"
+#include "executors/threads/window_scheduler.hpp"
 #include "windows/window_solver.hpp"
 
 namespace plexway {

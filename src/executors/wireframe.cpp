@@ -1,20 +1,31 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <deque>
 #include <limits>
+#include <span>
 #include <type_traits>
+#include <vector>
 
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
-#include "executors/solve_wireframe.hpp"
+#include "executors/threads/rank_mail.hpp"
+#include "executors/threads/scheduler.hpp"
+#include "executors/threads/supersteps.hpp"
+#include "executors/threads/team.hpp"
 #include "labels/alone.hpp"
+#include "labels/front.hpp"
+#include "labels/pieces/wire_piece.hpp"
 #include "labels/wireframe/wire_propagation.hpp"
-#include "labels/wireframe/wire_step.hpp"
+#include "labels/wireframe/wire_spread.hpp"
 
 namespace plexway {
 namespace {
 
 template <class Real, class Step, bool kLabels>
-void solve(const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
-           const PropagateOptions& options, WorkspaceState<Real>& workspace,
-           DistanceField<Real>& field) {
+void solve_alone(const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
+                 const PropagateOptions& options, WorkspaceState<Real>& workspace,
+                 DistanceField<Real>& field) {
   WirePropagation<Real, Step, kLabels> propagation(wireframe, workspace, options);
   constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
   const auto start = [&](auto& front) {
@@ -43,38 +54,145 @@ void solve(const Wireframe<Real>& wireframe, std::span<const PointSource> source
   propagation.read_out(sources, Alone{}, field);
 }
 
-}  // namespace
-
+// What seeds wait in until pieces take them.
 template <class Real>
-void solve_alone(const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
-                 const PropagateOptions& options, WorkspaceState<Real>& workspace,
-                 DistanceField<Real>& field) {
-  const auto with_step = [&](auto labels, auto step) {
-    solve<Real, decltype(step), decltype(labels)::value>(wireframe, sources, options, workspace,
-                                                         field);
-  };
-  const auto with_labels = [&](auto labels) {
-    options.vectorised ? with_step(labels, WireStep<Real>{})
-                       : with_step(labels, KernelWireStep<Real>{});
-  };
-  sources.size() > 1 ? with_labels(std::true_type{}) : with_labels(std::false_type{});
+struct Seeds {
+  std::vector<Index> vertex;
+  void push(Index v, Real, bool wanted) {
+    if (wanted) vertex.push_back(v);
+  }
+};
+
+/// How far the horizon moves on in a superstep: a piece is so many edges across as there are arcs
+/// for one at the cut.
+double pace_of(const RangeCut& cut) {
+  constexpr double pace = 1. / 8;
+  return pace * static_cast<double>(cut.hinges) /
+         static_cast<double>(std::max<std::size_t>(cut.at_cut, 1));
 }
 
-template void solve_alone(const Wireframe<float>&, std::span<const PointSource>,
-                          const PropagateOptions&, WorkspaceState<float>&, DistanceField<float>&);
-template void solve_alone(const Wireframe<double>&, std::span<const PointSource>,
-                          const PropagateOptions&, WorkspaceState<double>&, DistanceField<double>&);
+/// Do several threads gain anything? Not where an eighth of the arcs leads to other pieces, as
+/// between any two vertices; where fewer do than in a plane grid, as in trees, so that the front is
+/// a few vertices; nor where lengths are of very different size, and a pace says nothing.
+template <class Real>
+bool pays(const Wireframe<Real>& wireframe, const RangeCut& cut) {
+  const double across =
+      static_cast<double>(cut.hinges) / static_cast<double>(std::max<std::size_t>(cut.at_cut, 1));
+  return across >= 8 && across <= 1.5 * std::sqrt(static_cast<double>(cut.size)) &&
+         4 * wireframe.typical_edge() >= wireframe.summary().mean_edge / wireframe.unit();
+}
+
+/// The labels of other processes' vertices, and ours to them. Returns the bytes sent.
+template <bool kLabels, class Propagation>
+std::size_t share_labels(PieceRanks* ranks, const RangeCut& cut, const Propagation& propagation) {
+  const auto own = [&cut](auto* of, std::size_t p) {
+    return std::span(of + cut.begin(p), of + cut.end(p));
+  };
+  return share_pieces(
+      ranks, cut.cut.pieces.size(),
+      [&](std::size_t p, Parcel& parcel) {
+        const auto add = [&parcel](auto values) {
+          parcel.add(std::span<const typename decltype(values)::element_type>(values));
+        };
+        add(own(propagation.labels(), p));
+        if constexpr (kLabels) add(own(propagation.sources(), p));
+      },
+      [&](std::size_t p, Unpacked mail) {
+        mail.take(own(propagation.labels(), p));
+        if constexpr (kLabels) mail.take(own(propagation.sources(), p));
+      });
+}
+
+template <class Real, class Step, bool kLabels>
+void solve_in_pieces(const Team& team, const Wireframe<Real>& wireframe,
+                     std::span<const PointSource> sources, const PropagateOptions& options,
+                     WorkspaceState<Real>& workspace, WirePieces<Real>& kept,
+                     DistanceField<Real>& field) {
+  using Piece = WirePiece<Real, Step, kLabels>;
+  WirePropagation<Real, Step, kLabels> propagation(wireframe, workspace, options);
+  Seeds<Real> seeds;
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    propagation.seed(sources[i], static_cast<Index>(i), seeds);
+
+  const Deal deal = team.deal();
+  const RangeCut& cut = kept.cut;
+  const Real step = step_of<Real>(options, wireframe.typical_edge());
+  std::deque<Piece> pieces;  // ours
+  std::vector<Piece*> by_number(kept.rooms.size(), nullptr);
+  for (std::size_t p = deal.ours; p < by_number.size(); p += deal.count) {
+    const std::size_t arcs = wireframe.begin()[cut.end(p)] - wireframe.begin()[cut.begin(p)];
+    by_number[p] = &pieces.emplace_back(
+        kept, static_cast<Index>(p), propagation.labels(), propagation.spread(), step,
+        options.schedule == Schedule::fifo ? std::numeric_limits<std::size_t>::max()
+                                           : wire_patience * arcs);
+  }
+  for (const Index v : seeds.vertex)
+    if (Piece* const piece = by_number[cut.piece_of(v)]) piece->give(v);
+  Supersteps<Piece> supersteps(
+      team, cut.cut, by_number, static_cast<Real>(pace_of(cut) * wireframe.typical_edge()),
+      wireframe.vertex_count(), wireframe.unit(), options, workspace.pieces.counts());
+  const bool complete =
+      supersteps.run(propagation.statistics(), [](std::size_t, std::size_t) { return true; });
+  propagation.account(supersteps.statistics(), !complete);
+  workspace.pieces.counts().sent += share_labels<kLabels>(team.ranks(), cut, propagation);
+  propagation.read_out(sources, team, field);
+}
+
+/// Calls solve(step, labels) with the step that is wanted, and whether vertices have labels.
+template <class Real, class Solve>
+void with_step(std::span<const PointSource> sources, const PropagateOptions& options,
+               const Solve& solve) {
+  const auto with_labels = [&](auto step) {
+    sources.size() > 1 ? solve(step, std::true_type{}) : solve(step, std::false_type{});
+  };
+  options.vectorised ? with_labels(WireStep<Real>{}) : with_labels(KernelWireStep<Real>{});
+}
 
 template <class Real>
-void solve_points(const Serial&, const Wireframe<Real>& wireframe,
+void solve_on(const Serial&, const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
+              const PropagateOptions& options, WorkspaceState<Real>& workspace,
+              DistanceField<Real>& field) {
+  with_step<Real>(sources, options, [&](auto step, auto labels) {
+    solve_alone<Real, decltype(step), decltype(labels)::value>(wireframe, sources, options,
+                                                               workspace, field);
+  });
+}
+
+template <class Real>
+void solve_on(const OpenMP& executor, const Wireframe<Real>& wireframe,
+              std::span<const PointSource> sources, const PropagateOptions& options,
+              WorkspaceState<Real>& workspace, DistanceField<Real>& field) {
+  const Team team(executor);
+  workspace.pieces.counts().start();
+  const std::size_t n = wireframe.vertex_count();
+  const std::size_t size = piece_size(executor, n, wire_pieces);
+  thread_local WirePieces<Real> of_the_last;  // so that a second solve cuts nothing
+  WirePieces<Real>& pieces = of_the_last;
+  const bool one = is_one_piece(size, n);
+  if (!one) pieces.of(wireframe, size);
+  if (one || (executor.piece == 0 && !pays(wireframe, pieces.cut))) {
+    solve_on(Serial{}, wireframe, sources, options, workspace, field);
+    return;
+  }
+  team.hold([&] {
+    with_step<Real>(sources, options, [&](auto step, auto labels) {
+      solve_in_pieces<Real, decltype(step), decltype(labels)::value>(
+          team, wireframe, sources, options, workspace, pieces, field);
+    });
+  });
+  workspace.pieces.counts().tell(field.statistics);
+}
+
+}  // namespace
+
+template <class E, class Real>
+void solve_points(const E& executor, const Wireframe<Real>& wireframe,
                   std::span<const PointSource> sources, const PropagateOptions& options,
                   Workspace<Real>& kept, DistanceField<Real>& field) {
   check(sources, options, wireframe);
-  solve_alone(wireframe, sources, options, kept.state(), field);
+  solve_on(executor, wireframe, sources, options, kept.state(), field);
 }
 
-#define PLEXWAY_COMPILE_WIRES(...) PLEXWAY_COMPILE(Serial, __VA_ARGS__)
-PLEXWAY_WIREFRAMES(PLEXWAY_COMPILE_WIRES)
-#undef PLEXWAY_COMPILE_WIRES
+PLEXWAY_WIREFRAMES(PLEXWAY_COMPILE_HERE)
 
 }  // namespace plexway

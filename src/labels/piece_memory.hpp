@@ -2,8 +2,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <utility>
-#include <vector>
 
 #include <plexway/common/ids.hpp>
 #include <plexway/solve/distance_field.hpp>
@@ -23,17 +21,6 @@ struct SuperstepCounts {
   std::size_t letters = 0;  ///< labels sent to other pieces
   std::size_t bytes = 0;    ///< of letters
   std::size_t sent = 0;     ///< bytes from this process to others
-  /// A piece in a superstep: how many letters it posted to which others.
-  struct Run {
-    Index piece;
-    std::size_t expansions;
-    std::vector<std::pair<Index, std::size_t>> letters;
-  };
-  /// If it is kept: of each superstep the pieces of this process that ran, and the calling thread's
-  /// time in all of them.
-  std::vector<std::vector<Run>> log;
-  double seconds = 0;
-  bool keeps_log = false;
 
   /// Adds what a solve did.
   void tell(PropagateStatistics& statistics) const {
@@ -43,11 +30,7 @@ struct SuperstepCounts {
     statistics.sent_bytes += sent;
   }
   /// Before a solve.
-  void start() {
-    supersteps = runs = letters = bytes = sent = 0;
-    seconds = 0;
-    log.clear();
-  }
+  void start() { *this = {}; }
 };
 
 /// What solves by several threads keep of a surface that is cut into pieces, and the pieces' own

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include <plexway/source/point_source.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
 #include "labels/front.hpp"
@@ -14,6 +15,26 @@
 #include "labels/workspace_state.hpp"
 
 namespace plexway {
+
+/// Calls offer(vertex, distance) for a source at a vertex, or for the corners of the triangle it
+/// lies in: inside numbers and unit, exact.
+template <class Real, class Offer>
+void offer_source(const TriangleMesh<Real>& mesh, const PointSource& source, const Offer& offer) {
+  const double sigma = source.offset / mesh.unit();
+  if (source.vertex != none) {
+    offer(mesh.inside_vertex(source.vertex), sigma);
+    return;
+  }
+  const auto [f, turned] = mesh.inside_face(source.simplex);
+  const TriangleRecord<Real>& t = mesh.triangles()[f];
+  std::array<double, 4> b = source.barycentric;
+  if (turned) std::swap(b[1], b[2]);
+  const double px[3] = {0, static_cast<double>(t.length[0]), static_cast<double>(t.apex_x(0))};
+  const double py[3] = {0, 0, static_cast<double>(t.apex_h(0))};
+  const double x = b[1] * px[1] + b[2] * px[2], y = b[2] * py[2];
+  for (std::size_t i = 0; i < 3; ++i)
+    offer(t.corner[i], b[i] == 1 ? sigma : sigma + std::hypot(px[i] - x, py[i] - y));
+}
 
 /// Distances of the corners of two triangles from the edges their paths came in
 /// by: path_length of saddle_step.hpp for the apexes, and the same for the ends

@@ -7,10 +7,9 @@
 #include <plexway/solve/distance_field.hpp>
 #include <plexway/solve/options.hpp>
 
-#include "labels/endless.hpp"
 #include "labels/front.hpp"
+#include "labels/label_memory.hpp"
 #include "labels/progress_counter.hpp"
-#include "labels/visit_marks.hpp"
 
 namespace plexway {
 
@@ -68,6 +67,14 @@ class Wavefront {
     queue_.push(s, distance, !waits);
     reached_ += !known;
     ++updates_;
+  }
+
+  /// The same from elsewhere, while others of this front wait beyond a horizon.
+  [[gnu::always_inline]] void take(Index s, std::size_t hinge, const Label& label, Real distance,
+                                   Index source) {
+    const bool waits = reached(s) && this->waits(s);
+    accept(s, hinge, label, distance, source);
+    if (waits) queue_.note(distance);
   }
 
   /// Likewise, but it need not wait for that: nothing is to be told from there.

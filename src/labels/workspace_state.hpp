@@ -8,16 +8,14 @@
 #include <plexway/solve/workspace.hpp>
 
 #include "labels/front.hpp"
-#include "labels/label_storage.hpp"
+#include "labels/label_memory.hpp"
 #include "labels/piece_memory.hpp"
 #include "labels/plain_label.hpp"
-#include "labels/room.hpp"
 #include "labels/simplicial/simplex_label.hpp"
 #include "labels/solid/plain_solid_label.hpp"
 #include "labels/solid/solid_label.hpp"
 #include "labels/surface/lowering_rooms.hpp"
 #include "labels/surface/saddle_label.hpp"
-#include "labels/visit_marks.hpp"
 #include "windows/window_memory.hpp"
 
 namespace plexway {
@@ -39,8 +37,7 @@ struct WorkspaceState {
   WindowMemory<Real> windows;  ///< on surfaces: accuracies but `fast`
   /// The queues.
   FrontStorage front;
-  Room team;                                      ///< for executors with several threads
-  PieceMemory<Real> pieces;                       ///< likewise, on surfaces
+  PieceMemory<Real> pieces;                       ///< for executors with several threads
   std::vector<Real> vertex;                       ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;               ///< its labels
   std::shared_ptr<SolidStrings> strings;          ///< in solids: strings/solid_strings.hpp
@@ -74,7 +71,7 @@ struct WorkspaceState {
            plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +
            windows.bytes() + of(vertex) + of(vertex_source) + of(corners) +
            (lowering ? sizeof(*lowering) + lowering->bytes() : 0) +
-           front.capacity * 2 * sizeof(Index) + of(front.heap) + team.bytes() + pieces.bytes();
+           front.capacity * 2 * sizeof(Index) + of(front.heap) + pieces.bytes();
   }
 };
 

@@ -7,7 +7,6 @@
 #include <plexway/error.hpp>
 
 #include "windows/cross_edge.hpp"
-#include "windows/trim.hpp"
 
 namespace plexway::windows {
 namespace {

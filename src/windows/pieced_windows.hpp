@@ -159,21 +159,19 @@ class PiecedWindows {
   /// As one thread would, on the whole; if there is anything at all.
   template <class Scheduler>
   bool fill_holes(const Scheduler& scheduler) {
-    std::vector<char> any(pieces_.size(), 0);
-    scheduler.each(pieces_.size(), [&](std::size_t k) {
+    const bool any = scheduler.any(pieces_.size(), [&](std::size_t k) {
       const Windows& windows = pieces_[k].windows();
       const std::size_t p = pieces_[k].number();
       bool all = true;  // usual: no look at edges
       for (Index i = 0; i < patches_[p].vertices.size(); ++i)
         all &= windows.vertex_distance(i) < std::numeric_limits<Number>::infinity();
-      any[k] = !all && Windows::fill_holes(
-                           std::span<const TriangleRecord<Real>>(patches_[p].triangles),
-                           static_cast<Index>(patches_.cut().pieces[p].own),
-                           [&](Index v) { return windows.vertex_distance(v); },
-                           [](Index, Index, Number) {});
+      return !all &&
+             Windows::fill_holes(
+                 std::span<const TriangleRecord<Real>>(patches_[p].triangles),
+                 static_cast<Index>(patches_.cut().pieces[p].own),
+                 [&](Index v) { return windows.vertex_distance(v); }, [](Index, Index, Number) {});
     });
-    if (!scheduler.any(std::any_of(any.begin(), any.end(), [](char one) { return one != 0; })))
-      return false;
+    if (!any) return false;
     return Windows::fill_holes(
         mesh_.triangles(), static_cast<Index>(mesh_.face_count()),
         [&](Index v) { return distance_[v]; },

@@ -38,7 +38,7 @@ class WindowPiece {
              const typename Windows::Limit& limit) {
     windows_.begin(sources, options, limit);
     for (Outbox& box : mail_.box) box.forget();
-    horizon_ = 0;
+    turns_ = {};
   }
 
   [[nodiscard]] Index number() const { return number_; }
@@ -66,18 +66,12 @@ class WindowPiece {
 
   void take(const Letter& letter) { windows_.take(letter); }
 
-  /// What is nearer than the horizon before comes late: it repeats what was done without it.
   PieceWork run(double horizon, std::size_t most, std::size_t) {
-    PieceWork work;
-    const std::size_t before = windows_.statistics().expansions;
-    const auto done = [&] { return windows_.statistics().expansions - before; };
-    if (windows_.nearest() < horizon_) windows_.run_to(std::min(horizon_, horizon), most);
-    const std::size_t late = done();
-    windows_.run_to(horizon, most - late);
-    horizon_ = std::max(horizon, horizon_);
-    work.expansions = done();
-    work.first = work.expansions - late;
-    return work;
+    return turns_.run(windows_.nearest(), horizon, most, [&](double until, std::size_t some) {
+      const std::size_t before = windows_.statistics().expansions;
+      windows_.run_to(until, some);
+      return windows_.statistics().expansions - before;
+    });
   }
 
   double post(std::size_t superstep, PieceWork& work) {
@@ -145,7 +139,7 @@ class WindowPiece {
   Windows windows_;
   Outboxes mail_;
   std::vector<std::size_t> counts_;  ///< letters to each peer
-  double horizon_ = 0;               ///< of the superstep before
+  PieceTurns<double> turns_;
 };
 
 /// Between supersteps of `pieces` on so many triangles: is it too much to wait for? Ends ties where

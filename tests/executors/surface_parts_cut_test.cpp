@@ -12,8 +12,8 @@
 #include <plexway/error.hpp>
 
 #include "complexes/jittered.hpp"
-#include "executors/parts/same_rows.hpp"
 #include "executors/parts_testing.hpp"
+#include "executors/same_work.hpp"
 
 namespace plexway::testing::surface_parts_cut_test {
 

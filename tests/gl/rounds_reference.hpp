@@ -9,7 +9,7 @@
 
 #include <plexway/surface/triangle_mesh.hpp>
 
-#include "executors/gl/surface_seeds.hpp"
+#include "executors/gl/seeds.hpp"
 #include "labels/surface/saddle_step.hpp"
 
 namespace plexway::testing {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -68,6 +69,25 @@ class Session {
   Context* context_;
   std::unique_lock<std::mutex> lock_;
   MakeCurrent current_;
+};
+
+/// A program in use, and its uniforms by name; names it does not have are ignored.
+class Uniforms {
+ public:
+  Uniforms(const Session& session, GLuint program) : gl_(session.gl), program_(program) {
+    gl_.UseProgram(program_);
+  }
+  void set(const char* name, std::size_t value) const {
+    gl_.ProgramUniform1ui(program_, gl_.GetUniformLocation(program_, name),
+                          static_cast<GLuint>(value));
+  }
+  void set(const char* name, float value) const {
+    gl_.ProgramUniform1f(program_, gl_.GetUniformLocation(program_, name), value);
+  }
+
+ private:
+  const Functions& gl_;
+  GLuint program_;
 };
 
 }  // namespace plexway::gl

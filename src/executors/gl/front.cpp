@@ -9,7 +9,6 @@
 #include <plexway/error.hpp>
 
 #include "executors/gl/context.hpp"
-#include "executors/gl/uniforms.hpp"
 
 namespace plexway::gl {
 

@@ -6,7 +6,7 @@
 #include <plexway/error.hpp>
 
 #include "complexes/common/number_range.hpp"
-#include "labels/endless.hpp"
+#include "labels/progress_counter.hpp"
 
 namespace plexway::gl {
 

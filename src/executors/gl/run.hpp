@@ -5,8 +5,8 @@
 
 #include <plexway/solve/distance_field.hpp>
 
+#include "executors/gl/context.hpp"
 #include "executors/gl/seeds.hpp"
-#include "executors/gl/uniforms.hpp"
 #include "executors/gl/workspace.hpp"
 
 namespace plexway::gl {

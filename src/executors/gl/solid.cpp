@@ -5,7 +5,7 @@
 #include <plexway/executors/gl.hpp>
 
 #include "executors/checks.hpp"
-#include "executors/gl/solid_seeds.hpp"
+#include "executors/gl/seeds.hpp"
 #include "executors/gl/solve.hpp"
 #include "executors/run.hpp"
 

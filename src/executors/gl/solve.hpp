@@ -9,7 +9,7 @@
 #include "executors/checks.hpp"
 #include "executors/gl/run.hpp"
 #include "executors/run.hpp"
-#include "labels/endless.hpp"
+#include "labels/progress_counter.hpp"
 
 /// A solve on the device, for any kind of domain. Its Run, a RunOn, says what is particular:
 /// `Seeds` (a SeedsOf with `add(domain, sources, field, host workspace)`), `cells(domain)`, the

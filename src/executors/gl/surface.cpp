@@ -4,8 +4,8 @@
 #include <plexway/executors/gl.hpp>
 
 #include "executors/checks.hpp"
+#include "executors/gl/seeds.hpp"
 #include "executors/gl/solve.hpp"
-#include "executors/gl/surface_seeds.hpp"
 #include "executors/run.hpp"
 
 namespace plexway {

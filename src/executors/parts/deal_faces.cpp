@@ -8,13 +8,135 @@
 #include <plexway/error.hpp>
 
 #include "complexes/common/building_blocks.hpp"
-#include "executors/parts/curve_cells.hpp"
-#include "executors/parts/part_mail.hpp"
+#include "complexes/common/simplex_order.hpp"
+#include "executors/threads/rank_mail.hpp"
 
 namespace plexway {
 namespace {
 
 using Corners = std::array<Index, 3>;
+
+/// The place of a cell on Hilbert's curve, 63 bits: cells beside each other on the curve share a
+/// face. Each number has 21 bits. Skilling, Programming the Hilbert curve (AIP 2004).
+std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x) {
+  constexpr std::uint32_t highest = 1u << 20;
+  for (std::uint32_t q = highest; q > 1; q >>= 1) {
+    const std::uint32_t below = q - 1;
+    for (std::uint32_t& one : x) {
+      if ((one & q) != 0) {
+        x[0] ^= below;
+      } else {
+        const std::uint32_t both = (x[0] ^ one) & below;
+        x[0] ^= both;
+        one ^= both;
+      }
+    }
+  }
+  x[1] ^= x[0];
+  x[2] ^= x[1];
+  std::uint32_t turn = 0;
+  for (std::uint32_t q = highest; q > 1; q >>= 1)
+    if ((x[2] & q) != 0) turn ^= q - 1;
+  for (std::uint32_t& one : x) one ^= turn;
+  return every_third_bit(x[2]) | every_third_bit(x[1]) << 1 | every_third_bit(x[0]) << 2;
+}
+
+/// A triangle's place along the curve; its number tells those of one cell apart.
+struct CurvePlace {
+  std::uint64_t key;
+  Index face;
+};
+
+/// Cuts the curve where it pleases, so that pieces have about as many triangles each, of which each
+/// process knows some: by counting those in cells that are made finer where many are. The cut
+/// depends on the places alone.
+class CurveCells {
+ public:
+  /// `places`: this process's, of `count` in all. Into `pieces` at most. All processes call it.
+  CurveCells(PieceRanks* ranks, std::span<const CurvePlace> places, std::size_t count,
+             std::size_t pieces);
+
+  /// So many, none of them empty.
+  [[nodiscard]] std::size_t pieces() const { return sizes_.size(); }
+  /// Triangles of each.
+  [[nodiscard]] std::span<const std::uint64_t> sizes() const { return sizes_; }
+  /// `none` in a cell where none of the places is.
+  [[nodiscard]] Index piece_of(const CurvePlace& place) const;
+
+ private:
+  static constexpr int digit_bits = 4, digits = 24;
+  static constexpr std::size_t ways = 1 << digit_bits;
+  [[nodiscard]] static std::size_t digit(const CurvePlace& place, int depth);
+
+  struct Node {
+    std::uint64_t count;
+    Index first;  ///< of its 16 children, or `none`
+    Index piece;  ///< where it has none
+  };
+  std::vector<Node> nodes_;
+  std::vector<std::uint64_t> sizes_;
+};
+
+std::size_t CurveCells::digit(const CurvePlace& place, int depth) {
+  constexpr int in_key = 64 / digit_bits;
+  return static_cast<std::size_t>(depth < in_key ? place.key << 1 >> (64 - digit_bits * (depth + 1))
+                                                 : std::uint64_t{place.face} >>
+                                                       (32 - digit_bits * (depth - in_key + 1))) %
+         ways;
+}
+
+CurveCells::CurveCells(PieceRanks* ranks, std::span<const CurvePlace> places, std::size_t count,
+                       std::size_t pieces)
+    : nodes_{{count, none, none}} {
+  // Finer than a piece, so that pieces come out even.
+  const std::uint64_t most = std::max<std::uint64_t>(count / (16 * pieces), 1);
+  std::vector<Index> node(places.size(), 0);  // the finest that holds it
+  std::size_t begin = 0;                      // of the last level
+  for (int depth = 0; depth < digits; ++depth) {
+    const std::size_t end = nodes_.size();
+    for (std::size_t n = begin; n < end; ++n)
+      if (nodes_[n].count > most && pieces > 1) {
+        nodes_[n].first = static_cast<Index>(nodes_.size());
+        nodes_.resize(nodes_.size() + ways, {0, none, none});
+      }
+    if (nodes_.size() == end) break;
+    std::vector<std::uint64_t> counts(nodes_.size() - end);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Index first = nodes_[node[i]].first;
+      if (first == none) continue;
+      node[i] = static_cast<Index>(first + digit(places[i], depth));
+      ++counts[node[i] - end];
+    }
+    add_up(ranks, counts);
+    for (std::size_t k = 0; k < counts.size(); ++k) nodes_[end + k].count = counts[k];
+    begin = end;
+  }
+  // Along the curve: what is not divided goes where its middle falls.
+  std::uint64_t before = 0;
+  Index last = none;
+  std::vector<Index> line = {0};
+  while (!line.empty()) {
+    Node& n = nodes_[line.back()];
+    line.pop_back();
+    if (n.first != none) {
+      for (std::size_t k = ways; k-- > 0;) line.push_back(static_cast<Index>(n.first + k));
+      continue;
+    }
+    if (n.count == 0) continue;
+    const auto wanted = static_cast<Index>((2 * before + n.count) * pieces / (2 * count));
+    before += n.count;
+    if (wanted != last || sizes_.empty()) sizes_.push_back(0);
+    last = wanted;
+    sizes_.back() += n.count;
+    n.piece = static_cast<Index>(sizes_.size() - 1);
+  }
+}
+
+Index CurveCells::piece_of(const CurvePlace& place) const {
+  const Node* n = &nodes_[0];
+  for (int depth = 0; n->first != none; ++depth) n = &nodes_[n->first + digit(place, depth)];
+  return n->piece;
+}
 
 std::vector<Corners> read_faces(const SurfaceRows& rows, std::size_t begin, std::size_t end) {
   std::vector<Corners> faces(end - begin);
@@ -90,11 +212,46 @@ std::vector<std::uint64_t> leave_out_empty(PieceRanks* ranks, std::size_t pieces
 
 }  // namespace
 
+VertexHomes::VertexHomes(PieceRanks* ranks, const SurfaceRows& rows)
+    : ranks_(ranks), deal_(deal_of(ranks)), count_(rows.vertex_count()), positions_(size()) {
+  rows.read_vertices(begin(), positions_);
+  for (std::size_t v = 0; v < positions_.size(); ++v)
+    for (const double x : positions_[v])
+      if (!std::isfinite(x))
+        throw InputError("vertex " + std::to_string(begin() + v) + ": a coordinate is not finite");
+}
+
+std::vector<std::size_t> VertexHomes::ranges_of(std::span<const Index> ascending) const {
+  std::vector<std::size_t> ranges(deal_.count + 1, ascending.size());
+  for (std::size_t r = 0; r < deal_.count; ++r)
+    ranges[r] = static_cast<std::size_t>(
+        std::lower_bound(ascending.begin(), ascending.end(), begin_of(r)) - ascending.begin());
+  return ranges;
+}
+
+std::vector<std::array<double, 3>> VertexHomes::fetch(std::span<const Index> ascending) const {
+  const std::vector<std::size_t> ranges = ranges_of(ascending);
+  std::vector<std::array<double, 3>> found(ascending.size());
+  RankMail asked(ranks_), answers(ranks_);
+  for (std::size_t r = 0; r < asked.count(); ++r)
+    asked.to(r).add(ascending.subspan(ranges[r], ranges[r + 1] - ranges[r]));
+  asked.meet();
+  for (std::size_t r = 0; r < asked.count(); ++r)
+    for (Unpacked mail = asked.from(r); !mail.empty();)
+      answers.to(r).add(position(mail.take<Index>()));
+  answers.meet();
+  for (std::size_t r = 0; r < answers.count(); ++r) {
+    Unpacked mail = answers.from(r);
+    mail.take(std::span(found).subspan(ranges[r], ranges[r + 1] - ranges[r]));
+  }
+  return found;
+}
+
 DealtFaces deal_faces(PieceRanks* ranks, const SurfaceRows& rows, const VertexHomes& homes,
                       std::size_t size) {
   const std::size_t count = rows.face_count();
   if (count == 0) throw InputError("the surface has no faces");
-  const Deal deal = ranks == nullptr ? Deal{} : Deal{ranks->rank(), ranks->count()};
+  const Deal deal = deal_of(ranks);
   const std::size_t begin = count * deal.ours / deal.count;
   const std::vector<Corners> faces = read_faces(rows, begin, count * (deal.ours + 1) / deal.count);
 
@@ -146,7 +303,7 @@ DealtFaces deal_faces(PieceRanks* ranks, const SurfaceRows& rows, const VertexHo
   constexpr std::size_t batch = std::size_t{1} << 17;
   const std::size_t turns = (count / deal.count + 1 + batch - 1) / batch;
   for (std::size_t turn = 0; turn < turns; ++turn) {
-    PartMail mail(ranks);
+    RankMail mail(ranks);
     const std::size_t last = std::min((turn + 1) * batch, faces.size());
     for (std::size_t f = turn * batch; f < last; ++f) {
       const Index piece = pieces_of[f];

@@ -9,7 +9,7 @@
 
 #include <plexway/error.hpp>
 
-#include "executors/parts/part_mail.hpp"
+#include "executors/threads/rank_mail.hpp"
 
 namespace plexway {
 namespace {
@@ -122,7 +122,7 @@ class Numbering {
   /// so looks at places as well. A slit that ends at a border of files is none of it: there each
   /// file has both of its sides.
   void count_apart() {
-    PartMail mail(ranks_);
+    RankMail mail(ranks_);
     for (const SurfaceFilePart& part : parts_)
       for (std::size_t v = 0; v < part.positions.size(); ++v) {
         const Key place = key_of(part.positions[v]);
@@ -184,7 +184,7 @@ class Numbering {
       for (const std::uint64_t id : part.ids) largest = std::max(largest, id);
     // As a double, and so rounded: homes are ranges of ids all the same.
     const double ids = 1 - least_of(ranks_, -static_cast<double>(largest));
-    PartMail mail(ranks_);
+    RankMail mail(ranks_);
     std::vector<Key> own;
     for (const SurfaceFilePart& part : parts_) {
       own.clear();
@@ -252,7 +252,7 @@ class Numbering {
     count_ = std::accumulate(keys.begin(), keys.end(), std::uint64_t{0});
     std::uint64_t next = std::accumulate(
         keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(ours), std::uint64_t{0});
-    PartMail mail(ranks_);
+    RankMail mail(ranks_);
     each_key([&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) answer(mail, asked_[i], next);
       ++next;
@@ -262,7 +262,7 @@ class Numbering {
 
   /// A vertex is numbered where it comes first, and by that part.
   void number_by_parts() {
-    PartMail firsts(ranks_);
+    RankMail firsts(ranks_);
     each_key([&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i)  // of whom: of the first
         answer(firsts, asked_[i], std::uint64_t{asked_[first].part} << 32 | asked_[first].point);
@@ -279,7 +279,7 @@ class Numbering {
     count_ = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
     std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), std::uint64_t{0});
     // To who has the key, which tells the others.
-    PartMail told(ranks_);
+    RankMail told(ranks_);
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       std::uint64_t next = counts[parts_[i].number];
       for (std::size_t v = 0; v < numbers_[i].size(); ++v)
@@ -296,7 +296,7 @@ class Numbering {
       return std::tie(a.part, a.point) < std::tie(b.part, b.point);
     };
     std::sort(known.begin(), known.end(), less);
-    PartMail mail(ranks_);
+    RankMail mail(ranks_);
     each_key([&](std::size_t first, std::size_t last) {
       const auto number = std::lower_bound(known.begin(), known.end(), asked_[first], less)->number;
       for (std::size_t i = first; i < last; ++i) answer(mail, asked_[i], number);
@@ -304,10 +304,10 @@ class Numbering {
     hear(mail);
   }
 
-  void answer(PartMail& mail, const VertexQuery& to, std::uint64_t number) const {
+  void answer(RankMail& mail, const VertexQuery& to, std::uint64_t number) const {
     mail.to(to.part % mail.count()).add(Answer{to.part, to.point, number});
   }
-  void hear(PartMail& mail) {
+  void hear(RankMail& mail) {
     mail.meet();
     for (std::size_t r = 0; r < mail.count(); ++r)
       for (Unpacked in = mail.from(r); !in.empty();) {
@@ -332,7 +332,7 @@ class Numbering {
 /// A triangle that two parts have would be there twice, and paths go on over either.
 void check_no_overlap(PieceRanks* ranks, std::span<const SurfaceFilePart> parts,
                       const Numbering& numbers) {
-  PartMail mail(ranks);
+  RankMail mail(ranks);
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (const std::array<Index, 3>& triangle : parts[i].triangles) {
       Cornered one{{}, parts[i].number};
@@ -388,8 +388,8 @@ JoinedRows::JoinedRows(PieceRanks* ranks, std::vector<SurfaceFilePart> parts) {
 
   check_no_overlap(ranks, parts, numbers);
 
-  PartMail vertices(ranks), faces(ranks);
-  const std::size_t n = vertices.count(), ours = vertices.ours();
+  RankMail vertices(ranks), faces(ranks);
+  const std::size_t n = vertices.count(), ours = deal_of(ranks).ours;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const SurfaceFilePart& part = parts[i];
     for (std::size_t v = 0; v < part.positions.size(); ++v)

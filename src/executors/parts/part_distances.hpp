@@ -41,7 +41,7 @@ bool agree(PieceRanks* ranks, const PartPieces<Real>& pieces,
     Number distance, error;
     Index source;
   };
-  std::uint64_t changed[] = {0};
+  std::size_t changed = 0;
   sent += pieces.tell_peers(
       ranks,
       [&](std::size_t i, std::size_t peer, Parcel& parcel) {
@@ -53,11 +53,10 @@ bool agree(PieceRanks* ranks, const PartPieces<Real>& pieces,
       [&](std::size_t i, std::size_t peer, Unpacked& mail) {
         for (const Index v : pieces.parts()[i].common[peer]) {
           const Told told = mail.template take<Told>();
-          changed[0] += known[i].take(v, told.distance, told.error, told.source);
+          changed += known[i].take(v, told.distance, told.error, told.source);
         }
       });
-  add_up(ranks, changed);
-  return changed[0] > 0;
+  return sum_of(ranks, changed) > 0;
 }
 
 /// Calls work(i, workspace) by a team with what is known in each of our pieces as of a surface:

@@ -34,7 +34,7 @@ class Directory {
     }
     asked_.meet();
     note_pieces();
-    PartMail answers(ranks_);
+    RankMail answers(ranks_);
     each_list([&](std::size_t r, Index piece, std::span<const Index> vertices) {
       answer(piece, vertices, answers.to(r));
     });
@@ -113,7 +113,7 @@ class Directory {
   Deal deal_;
   const VertexHomes& homes_;
   std::span<PartDraft> drafts_;
-  PartMail asked_;
+  RankMail asked_;
   std::vector<std::size_t> begin_;
   std::vector<Index> pieces_;
 };
@@ -181,7 +181,7 @@ double mean_edge_of(PieceRanks* ranks, Deal deal, std::span<const PartDraft> dra
   return longest * (sum / (3 * static_cast<double>(faces)));
 }
 
-std::size_t sort_by_cut(PartDraft& draft, Deal deal, PartMail& mail) {
+std::size_t sort_by_cut(PartDraft& draft, Deal deal, RankMail& mail) {
   std::vector<Index> to;
   const auto find = [&](const DealtFace& face) {
     to.clear();

@@ -11,8 +11,7 @@
 
 #include "complexes/partition/deal.hpp"
 #include "executors/parts/deal_faces.hpp"
-#include "executors/parts/part_mail.hpp"
-#include "executors/parts/vertex_homes.hpp"
+#include "executors/threads/rank_mail.hpp"
 
 namespace plexway {
 
@@ -75,6 +74,6 @@ struct PartDraft {
 
 /// Puts the triangles at the cut first, and mails them to the pieces that they are ghosts in. How
 /// many there are.
-std::size_t sort_by_cut(PartDraft& draft, Deal deal, PartMail& mail);
+std::size_t sort_by_cut(PartDraft& draft, Deal deal, RankMail& mail);
 
 }  // namespace plexway

@@ -82,12 +82,7 @@ PartLabelRooms<Real>::PartLabelRooms(const Team& team, const PartPieces<Real>& p
     const auto triangles = part.mesh->triangles();
     Piece& piece = all_[i];
     piece.triangles.assign(triangles.begin(), triangles.end());
-    piece.leads_in.assign(part.mesh->face_count() - part.own, 0);
-    for (std::size_t g = 0; g < piece.leads_in.size(); ++g)
-      for (std::size_t e = 0; e < 3; ++e)
-        if (any_over_edge(triangles, static_cast<Index>(part.own + g), e,
-                          [&](Index f) { return f < part.own; }))
-          piece.leads_in[g] |= static_cast<std::uint8_t>(1 << e);
+    piece.leads_in = leads_in(triangles, part.own);
     for (const Index v : part.mesh->pinched())
       if (v < part.vertices.size()) piece.pinched.push_back(v);
   });

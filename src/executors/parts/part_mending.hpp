@@ -25,21 +25,19 @@ class PartMending {
       : team_(team), pieces_(pieces), sources_(sources), known_(known) {}
 
   surface::Mended run(std::size_t& sent) {
-    std::uint64_t sums[2] = {raise(), 0};  // also those that end lower
+    surface::Mended mended;  // here
+    mended.raised = raise();
     std::vector<std::vector<Real>> before(known_.size());
     for (std::size_t i = 0; i < known_.size(); ++i) before[i] = known_[i].distance;
     bool any = false;
     do any |= lower();
     while (agree(team_.ranks(), pieces_, known_, sent));
-    std::uint64_t lowered[] = {any ? 1u : 0u};
-    add_up(team_.ranks(), lowered);
-    if (lowered[0] > 0) {
-      for (std::size_t i = 0; i < known_.size(); ++i) sums[1] += count_lowered(i, before[i]);
+    if (team_.any(any)) {
+      for (std::size_t i = 0; i < known_.size(); ++i) mended.lowered += count_lowered(i, before[i]);
       raise();
       agree(team_.ranks(), pieces_, known_, sent);  // pieces see lines from where they are
     }
-    add_up(team_.ranks(), sums);
-    return {static_cast<std::size_t>(sums[0]), static_cast<std::size_t>(sums[1])};
+    return {sum_of(team_.ranks(), mended.raised), sum_of(team_.ranks(), mended.lowered)};
   }
 
  private:

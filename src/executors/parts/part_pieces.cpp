@@ -14,7 +14,6 @@
 #include "complexes/surface/shape_blocks.hpp"
 #include "executors/parts/deal_faces.hpp"
 #include "executors/parts/part_drafts.hpp"
-#include "executors/parts/vertex_homes.hpp"
 #include "labels/pieces/triangle_patches.hpp"
 
 namespace plexway {
@@ -220,17 +219,17 @@ void list_slots(const PartPiece<Real>& part, CutPiece& cut) {
 }
 
 /// The peers of all pieces, for who carries letters between them.
-void share_peers(PieceRanks* ranks, Deal deal, std::vector<CutPiece>& cuts) {
-  if (ranks == nullptr) return;
-  const SharedPieces shared(*ranks, deal, cuts.size(), [&](std::size_t p, Parcel& parcel) {
-    for (std::size_t peer = 0; peer < cuts[p].peer_count(); ++peer) parcel.add(cuts[p].peers[peer]);
-  });
-  for (std::size_t p = 0; p < cuts.size(); ++p) {
-    if (deal.is_ours(p)) continue;
-    for (Unpacked mail = shared.of(p); !mail.empty();)
-      cuts[p].peers.push_back(mail.take<CutPiece::Peer>());
-    cuts[p].peers.push_back({none, none, 0});
-  }
+void share_peers(PieceRanks* ranks, std::vector<CutPiece>& cuts) {
+  share_pieces(
+      ranks, cuts.size(),
+      [&](std::size_t p, Parcel& parcel) {
+        for (std::size_t peer = 0; peer < cuts[p].peer_count(); ++peer)
+          parcel.add(cuts[p].peers[peer]);
+      },
+      [&](std::size_t p, Unpacked mail) {
+        while (!mail.empty()) cuts[p].peers.push_back(mail.take<CutPiece::Peer>());
+        cuts[p].peers.push_back({none, none, 0});
+      });
 }
 
 }  // namespace
@@ -261,7 +260,7 @@ PartPieces<Real>::PartPieces(const Team& team, const SurfaceRows& rows, std::siz
   summary_.mean_edge = mean_edge_of(ranks, deal_, drafts, dealt.pieces, summary_.faces);
   cut_.pieces.resize(dealt.pieces);
   {
-    PartMail mail(ranks);
+    RankMail mail(ranks);
     for (std::size_t i = 0; i < drafts.size(); ++i) {
       for (const DealtFace& face : drafts[i].faces)
         check_size<Real>(face.face, drafts[i].corners_of(face), unit());
@@ -282,12 +281,10 @@ PartPieces<Real>::PartPieces(const Team& team, const SurfaceRows& rows, std::siz
   });
   tell_addresses<Real>(ranks, *this, parts_, cut_.pieces);
   for (const PartPiece<Real>& part : parts_) list_slots(part, cut_.pieces[part.number]);
-  share_peers(ranks, deal_, cut_.pieces);
-  std::uint64_t sums[] = {unreferenced_.size(), 0};
-  for (const PartPiece<Real>& part : parts_) sums[1] += part.addresses.at_home.size();
-  add_up(ranks, sums);
-  summary_.unreferenced_vertices = sums[0];
-  summary_.ghosts = sums[1];
+  share_peers(ranks, cut_.pieces);
+  summary_.unreferenced_vertices = sum_of(ranks, unreferenced_.size());
+  for (const PartPiece<Real>& part : parts_) summary_.ghosts += part.addresses.at_home.size();
+  summary_.ghosts = sum_of(ranks, summary_.ghosts);
 }
 
 template <class Real>

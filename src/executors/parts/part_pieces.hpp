@@ -11,7 +11,7 @@
 
 #include "complexes/partition/cut.hpp"
 #include "complexes/partition/deal.hpp"
-#include "executors/parts/part_mail.hpp"
+#include "executors/threads/rank_mail.hpp"
 #include "executors/threads/team.hpp"
 #include "windows/sheet.hpp"
 #include "windows/vertex_angles.hpp"
@@ -78,7 +78,7 @@ class PartPieces {
   /// Returns the bytes sent to other processes.
   template <class Write, class Read>
   std::size_t tell_peers(PieceRanks* ranks, const Write& write, const Read& read) const {
-    PartMail mail(ranks);
+    RankMail mail(ranks);
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const CutPiece& cut = cut_of(parts_[i]);
       for (std::size_t peer = 0; peer < cut.peer_count(); ++peer) {
@@ -89,14 +89,14 @@ class PartPieces {
         write(i, peer, parcel);
       }
     }
-    mail.meet();
+    const std::size_t sent = mail.meet();
     for (std::size_t r = 0; r < mail.count(); ++r)
       for (Unpacked in = mail.from(r); !in.empty();) {
         const std::size_t i = deal_.place(in.take<Index>());
         const std::size_t peer = cut_of(parts_[i]).place_of(in.take<Index>());
         read(i, peer, in);
       }
-    return mail.sent();
+    return sent;
   }
 
   [[nodiscard]] std::size_t bytes() const;

@@ -122,14 +122,13 @@ class PartSolve {
   }
 
   void count_reached_triangles() {
-    std::uint64_t reached[] = {0};
+    std::size_t reached = 0;
     for (std::size_t i = 0; i < known_.size(); ++i) {
       const PartPiece<Real>& part = pieces_.parts()[i];
       for (std::size_t f = 0; f < part.own; ++f)
-        reached[0] += known_[i].distance[part.mesh->triangles()[f].corner[0]] < infinity;
+        reached += known_[i].distance[part.mesh->triangles()[f].corner[0]] < infinity;
     }
-    add_up(team_.ranks(), reached);
-    field_.statistics.reached_simplices = reached[0];
+    field_.statistics.reached_simplices = sum_of(team_.ranks(), reached);
   }
 
   void mend() {

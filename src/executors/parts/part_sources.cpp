@@ -183,7 +183,7 @@ PartPoint nearest_on(const Team& team, const PartPieces<Real>& pieces,
                                        part.vertices[corner[2]]};
     best = {numbers[first], distances[i][first] * pieces.unit(), source_at(place, ends)};
   }
-  PartMail mail(team.ranks());
+  RankMail mail(team.ranks());
   for (std::size_t r = 0; r < mail.count(); ++r) mail.to(r).add(best);
   mail.meet();
   for (std::size_t r = 0; r < mail.count(); ++r) {

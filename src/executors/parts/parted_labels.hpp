@@ -90,9 +90,9 @@ class PartedLabels {
       check_end(expansions, summary.faces);
       return true;
     };
-    std::uint64_t pinched[] = {0};
-    for (std::size_t i = 0; i < labels_.size(); ++i) pinched[0] += rooms_.pinched(i).size();
-    add_up(team_.ranks(), pinched);
+    std::size_t pinched = 0;
+    for (std::size_t i = 0; i < labels_.size(); ++i) pinched += rooms_.pinched(i).size();
+    pinched = sum_of(team_.ranks(), pinched);
     team_.each(labels_.size(), [&](std::size_t i) { seed(i); });
     bool complete = true;
     int revivals = 0;
@@ -100,7 +100,7 @@ class PartedLabels {
       for (Piece& piece : labels_) piece.set_last_resort(Propagation::last_resort(revivals));
       complete = supersteps.run({}, goes_on);
       ++revivals;
-    } while (complete && ((pinched[0] > 0 && pass_pinches()) || revive()));
+    } while (complete && ((pinched > 0 && pass_pinches()) || revive()));
     statistics_ = supersteps.statistics();
     statistics_.reached_simplices = reached();
     return complete;
@@ -201,7 +201,7 @@ class PartedLabels {
                 own = other;
             }
         });
-    return any([&](std::size_t i) {
+    return team_.any(labels_.size(), [&](std::size_t i) {
       bool bent = false;
       on(i, false, [&](Propagation& propagation) {
         for (std::size_t k = 0; k < best[i].size(); ++k)
@@ -215,29 +215,18 @@ class PartedLabels {
   bool revive() {
     if (radius_ < std::numeric_limits<Real>::infinity() || reached() == pieces_.summary().faces)
       return false;
-    return any([&](std::size_t i) {
+    return team_.any(labels_.size(), [&](std::size_t i) {
       bool revived = false;
       on(i, false, [&](Propagation& propagation) { revived = propagation.revive_all(); });
       return revived;
     });
   }
 
-  /// Is it so for any piece of any process?
-  template <class Work>
-  bool any(const Work& work) {
-    std::vector<char> found(labels_.size(), 0);
-    team_.each(found.size(), [&](std::size_t i) { found[i] = work(i); });
-    std::uint64_t sum[] = {std::any_of(found.begin(), found.end(), [](char c) { return c != 0; })};
-    add_up(team_.ranks(), sum);
-    return sum[0] > 0;
-  }
-
   /// Triangles of all pieces.
   [[nodiscard]] std::size_t reached() const {
-    std::uint64_t sum[] = {0};
-    for (const Piece& piece : labels_) sum[0] += piece.count_reached();
-    add_up(team_.ranks(), sum);
-    return static_cast<std::size_t>(sum[0]);
+    std::size_t sum = 0;
+    for (const Piece& piece : labels_) sum += piece.count_reached();
+    return sum_of(team_.ranks(), sum);
   }
 
   const Team& team_;

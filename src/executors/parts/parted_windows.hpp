@@ -104,21 +104,19 @@ class PartedWindows {
   /// Each in its piece; the others hear of it by letters.
   template <class Scheduler>
   bool fill_holes(const Scheduler& scheduler) {
-    std::vector<char> any(windows_.size(), 0);
-    scheduler.each(windows_.size(), [&](std::size_t i) {
+    return scheduler.any(windows_.size(), [&](std::size_t i) {
       const PartPiece<Real>& part = pieces_.parts()[i];
       Windows& windows = windows_[i].windows();
       bool all = true;  // usual: no look at edges
       for (Index v = 0; v < part.vertices.size(); ++v)
         all &= windows.vertex_distance(v) < std::numeric_limits<Number>::infinity();
-      any[i] = !all && Windows::fill_holes(
-                           part.mesh->triangles(), static_cast<Index>(part.own),
-                           [&](Index v) { return windows.vertex_distance(v); },
-                           [&](Index v, Index w, Number way) {
-                             windows.seed_hole(w, way, windows.source(v), windows.vertex_error(v));
-                           });
+      return !all && Windows::fill_holes(
+                         part.mesh->triangles(), static_cast<Index>(part.own),
+                         [&](Index v) { return windows.vertex_distance(v); },
+                         [&](Index v, Index w, Number way) {
+                           windows.seed_hole(w, way, windows.source(v), windows.vertex_error(v));
+                         });
     });
-    return scheduler.any(std::any_of(any.begin(), any.end(), [](char one) { return one != 0; }));
   }
 
   const PartPieces<Real>& pieces_;

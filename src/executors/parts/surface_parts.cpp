@@ -10,11 +10,11 @@
 #include <plexway/support.hpp>
 
 #include "executors/checks.hpp"
+#include "executors/parts/deal_faces.hpp"
 #include "executors/parts/part_pieces.hpp"
 #include "executors/parts/part_solve.hpp"
 #include "executors/parts/part_sources.hpp"
 #include "executors/parts/parted_windows.hpp"
-#include "executors/parts/vertex_homes.hpp"
 #include "executors/same_work.hpp"
 #include "executors/supported.hpp"
 #include "windows/exact_windows.hpp"

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include <plexway/solid/tet_mesh.hpp>
-#include "labels/endless.hpp"
+#include "labels/progress_counter.hpp"
 
 #include "complexes/partition/cut.hpp"
 #include "complexes/partition/partition.hpp"
 #include "executors/drive.hpp"
-#include "executors/threads/piece_post.hpp"
-#include "executors/threads/piece_size.hpp"
+#include "executors/threads/rank_mail.hpp"
+#include "executors/threads/scheduler.hpp"
 #include "executors/threads/supersteps.hpp"
 #include "labels/pieces/owned_piece.hpp"
 
@@ -86,7 +86,12 @@ class OwnedScheduler : public TeamScheduler<Real, kLabels> {
         if (Piece* const piece = by_number[pieces_.cut.piece_of[s]]) piece->give(s);
       });
       supersteps.run_beside(front, goes_on);
-      share_labels(front);
+      // Repairs look at all labels: those of other processes' tetrahedra, too.
+      this->share_labels(by_number.size(), front, [&](std::size_t p, const auto& take) {
+        const CutPiece& piece = pieces_.cut.pieces[p];
+        for (const Index s : std::span(piece.simplices).first(piece.own))
+          if (front.reached(s)) take(s, front.hinge(s), front.label(s), front.source(s));
+      });
     };
     propagation.run(spread, [&](const auto& look) {
       this->search(
@@ -97,32 +102,6 @@ class OwnedScheduler : public TeamScheduler<Real, kLabels> {
   }
 
  private:
-  /// Repairs look at all labels: those of other processes' tetrahedra, too.
-  template <class Front>
-  void share_labels(Front& front) const {
-    using Label = typename Front::Label;
-    struct Known {
-      Index tet, hinge, source;
-      Label label;
-    };
-    if (this->team_.ranks() == nullptr) return;
-    const Deal deal = this->team_.deal();
-    const auto& cuts = pieces_.cut.pieces;
-    const SharedPieces shared(
-        *this->team_.ranks(), deal, cuts.size(), [&](std::size_t p, Parcel& parcel) {
-          for (const Index t : std::span(cuts[p].simplices).first(cuts[p].own))
-            if (front.reached(t))
-              parcel.add(
-                  Known{t, static_cast<Index>(front.hinge(t)), front.source(t), front.label(t)});
-        });
-    this->workspace_.pieces.counts().sent += shared.sent();
-    for (std::size_t p = 0; p < cuts.size(); ++p)
-      for (Unpacked mail = shared.of(p); !mail.empty();) {
-        const Known known = mail.template take<Known>();
-        front.know(known.tet, known.hinge, known.label, known.source);
-      }
-  }
-
   OwnedPieces& pieces_;
 };
 

@@ -11,7 +11,7 @@
 
 #include <plexway/surface/triangle_mesh.hpp>
 
-#include "executors/threads/piece_post.hpp"
+#include "executors/threads/rank_mail.hpp"
 #include "executors/threads/scheduler.hpp"
 #include "executors/threads/supersteps.hpp"
 #include "labels/pieces/triangle_patches.hpp"
@@ -77,7 +77,9 @@ class PieceScheduler : public TeamScheduler<Real, kLabels> {
           });
         pieces[p].read_out();
       });
-      if (whole) share_labels(by_number, front);
+      if (whole)
+        this->share_labels(by_number.size(), front,
+                           [&](std::size_t p, const auto& take) { by_number[p]->gather(take); });
     });
   }
 
@@ -109,52 +111,24 @@ class PieceScheduler : public TeamScheduler<Real, kLabels> {
       for (std::size_t i = 0; i < patch.shared; ++i)
         take_better(patch.vertices[i], patch.vertex[i], source_of(patch, i));
     }
-    if (this->team_.ranks() == nullptr) return;
-    const SharedPieces shared(*this->team_.ranks(), deal, patches.count(),
-                              [&](std::size_t p, Parcel& parcel) {
-                                parcel.add(std::span<const Real>(patches[p].vertex));
-                                if constexpr (kLabels)
-                                  parcel.add(std::span<const Index>(patches[p].vertex_source));
-                              });
-    workspace.pieces.counts().sent += shared.sent();
-    for (std::size_t p = 0; p < patches.count(); ++p) {
-      if (deal.is_ours(p)) continue;
-      const auto& vertices = patches[p].vertices;
-      Unpacked distances = shared.of(p);
-      Unpacked sources(distances);
-      if constexpr (kLabels) (void)sources.cut_off(vertices.size() * sizeof(Real));
-      for (const Index v : vertices) {
-        const Real distance = distances.template take<Real>();
-        take_better(v, distance, kLabels ? sources.template take<Index>() : none);
-      }
-    }
+    workspace.pieces.counts().sent += share_pieces(
+        this->team_.ranks(), patches.count(),
+        [&](std::size_t p, Parcel& parcel) {
+          parcel.add(std::span<const Real>(patches[p].vertex));
+          if constexpr (kLabels) parcel.add(std::span<const Index>(patches[p].vertex_source));
+        },
+        [&](std::size_t p, Unpacked distances) {
+          const auto& vertices = patches[p].vertices;
+          Unpacked sources(distances);
+          if constexpr (kLabels) (void)sources.cut_off(vertices.size() * sizeof(Real));
+          for (const Index v : vertices) {
+            const Real distance = distances.template take<Real>();
+            take_better(v, distance, kLabels ? sources.template take<Index>() : none);
+          }
+        });
   }
 
  private:
-  /// Puts the labels of other processes' triangles where ours were gathered.
-  template <class Piece, class Front>
-  void share_labels(const std::vector<Piece*>& pieces, Front& front) const {
-    using Label = typename Front::Label;
-    struct Known {
-      Index triangle, hinge, source;
-      Label label;
-    };
-    if (this->team_.ranks() == nullptr) return;
-    const Deal deal = this->team_.deal();
-    const SharedPieces shared(
-        *this->team_.ranks(), deal, pieces.size(), [&](std::size_t p, Parcel& parcel) {
-          pieces[p]->gather([&](Index f, std::size_t hinge, const Label& label, Index source) {
-            parcel.add(Known{f, static_cast<Index>(hinge), source, label});
-          });
-        });
-    this->workspace_.pieces.counts().sent += shared.sent();
-    for (std::size_t p = 0; p < pieces.size(); ++p)
-      for (Unpacked mail = shared.of(p); !mail.empty();) {
-        const Known known = mail.template take<Known>();
-        front.know(known.triangle, known.hinge, known.label, known.source);
-      }
-  }
-
   const TriangleMesh<Real>& mesh_;
   PieceSettings settings_;
 };

@@ -1,19 +1,16 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
-#include <bit>
 #include <cstddef>
-#include <cstdint>
 #include <mutex>
-#include <span>
 #include <utility>
 #include <vector>
 
+#include <plexway/executors.hpp>
 #include <plexway/solve/options.hpp>
 
+#include "executors/threads/rank_mail.hpp"
 #include "executors/threads/team.hpp"
-#include "labels/read_out.hpp"
 #include "labels/workspace_state.hpp"
 
 namespace plexway {
@@ -54,6 +51,30 @@ class TeamScheduler {
   [[nodiscard]] const Team& team() const { return team_; }
 
  protected:
+  /// Puts what other processes know of their simplices into the front: gather(piece, take) calls
+  /// take(simplex, hinge, label, source) for each that a piece of ours has reached.
+  template <class Front, class Gather>
+  void share_labels(std::size_t pieces, Front& front, const Gather& gather) const {
+    using Label = typename Front::Label;
+    struct Known {
+      Index simplex, hinge, source;
+      Label label;
+    };
+    workspace_.pieces.counts().sent += share_pieces(
+        team_.ranks(), pieces,
+        [&](std::size_t p, Parcel& parcel) {
+          gather(p, [&](Index s, std::size_t hinge, const Label& label, Index source) {
+            parcel.add(Known{s, static_cast<Index>(hinge), source, label});
+          });
+        },
+        [&](std::size_t, Unpacked mail) {
+          while (!mail.empty()) {
+            const Known known = mail.template take<Known>();
+            front.know(known.simplex, known.hinge, known.label, known.source);
+          }
+        });
+  }
+
   // Nothing waits in the front's second queue while the team works: it has room for all simplices.
   [[nodiscard]] Index* list() const { return workspace_.front.far.get(); }
 
@@ -64,65 +85,28 @@ class TeamScheduler {
   const PropagateOptions& options_;
 };
 
-/// Distances and whose they are, as numbers in the order of distances, then of sources. In double
-/// there is no room for both in one.
-template <class Real>
-struct OfferKey {
-  static constexpr bool ties_apart = sizeof(Real) == 8;
-  static constexpr std::uint64_t unreached = ~std::uint64_t{0};
-
-  static std::uint64_t of(float distance, Index source) {
-    return std::uint64_t{std::bit_cast<std::uint32_t>(distance + 0.F)} << 32 | source;
-  }
-  static Real distance(std::uint64_t key) {
-    return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32));
-  }
+/// How a domain is cut where the executor does not say it.
+struct PieceChoice {
+  std::size_t least;  ///< simplices a piece: fewer cost more than they are good for
+  std::size_t count;  ///< so many pieces where they are larger: enough for a dozen threads
 };
 
-/// Triangles offer distances to their vertices, which keep the least.
-template <class Real, bool kLabels, class Rule, class Front>
-void read_out_triangles(const Team& team, std::span<const TriangleRecord<Real>> triangles,
-                        const Rule& rule, const Front& front, WorkspaceState<Real>& workspace) {
-  using Key = OfferKey<Real>;
-  const auto offers = [&](const auto& offer) {
-    team.over(triangles.size() - 1, [&](std::size_t begin, std::size_t end) {
-      if constexpr (requires { rule.label(0).x; })
-        offer_apexes(triangles, rule, front, static_cast<Index>(begin), static_cast<Index>(end),
-                     offer);
-      else
-        offer_corners(triangles, rule, front, static_cast<Index>(begin), static_cast<Index>(end),
-                      offer);
-    });
-  };
-  const auto lower = [](auto& value, auto by) {
-    const std::atomic_ref least(value);
-    auto known = least.load(std::memory_order_relaxed);
-    while (by < known && !least.compare_exchange_weak(known, by, std::memory_order_relaxed)) {
-    }
-  };
-  Real* const distance = workspace.vertex.data();
-  if constexpr (!kLabels) {
-    offers([&](Index v, Real d, Index) { lower(distance[v], d); });
-  } else if constexpr (!Key::ties_apart) {
-    const std::size_t vertices = workspace.vertex.size();
-    std::uint64_t* const key = workspace.team.template reserve<std::uint64_t>(vertices);
-    team.over(vertices, [&](std::size_t begin, std::size_t end) {
-      std::fill(key + begin, key + end, Key::unreached);
-    });
-    offers([&](Index v, Real d, Index f) { lower(key[v], Key::of(d, front.source(f))); });
-    team.over(vertices, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v)
-        if (key[v] != Key::unreached) {
-          distance[v] = Key::distance(key[v]);
-          workspace.vertex_source[v] = static_cast<Index>(key[v]);
-        }
-    });
-  } else {  // the distances first, then whose they are
-    offers([&](Index v, Real d, Index) { lower(distance[v], d); });
-    offers([&](Index v, Real d, Index f) {
-      if (d == distance[v]) lower(workspace.vertex_source[v], front.source(f));
-    });
-  }
+/// Of wireframes, in vertices.
+inline constexpr PieceChoice wire_pieces = {4096, 64};
+
+/// About so many simplices a piece, of so many. Of the domain alone, never of threads. What one
+/// thread does in some milliseconds is a single piece.
+inline std::size_t piece_size(const OpenMP& executor, std::size_t simplices,
+                              const PieceChoice& choice) {
+  if (executor.piece != 0) return executor.piece;
+  constexpr std::size_t too_few = std::size_t{1} << 15;
+  if (simplices < too_few) return simplices + 1;
+  return std::max(choice.least, simplices / choice.count);
+}
+
+/// Is all of it one piece? Then one thread does what Serial does.
+inline bool is_one_piece(std::size_t size, std::size_t simplices) {
+  return simplices < size + size / 2;
 }
 
 }  // namespace plexway

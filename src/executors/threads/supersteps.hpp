@@ -19,11 +19,9 @@
 
 #include "complexes/partition/cut.hpp"
 #include "complexes/partition/deal.hpp"
-#include "executors/threads/crowd_watch.hpp"
-#include "executors/threads/owned_work.hpp"
+#include "executors/threads/crowding.hpp"
 #include "executors/threads/piece_post.hpp"
 #include "executors/threads/team.hpp"
-#include "labels/endless.hpp"
 #include "labels/piece_memory.hpp"
 #include "labels/pieces/mail.hpp"
 #include "labels/progress_counter.hpp"
@@ -61,7 +59,7 @@ class Supersteps {
         deal_(team.deal()),
         cut_(cut),
         pieces_(pieces.begin(), pieces.end()),
-        post_(team.ranks(), deal_, cut),
+        post_(team.ranks(), cut),
         pace_(pace),
         simplices_(simplices),
         unit_(unit),
@@ -88,7 +86,6 @@ class Supersteps {
       after_[p].nearest = pieces_[p]->nearest();
       after_[p].weight = weight_of(*pieces_[p]);
     }
-    const double before_all = counts_.keeps_log ? seconds_of_thread() : 0;
     const Sums sums = meet({});
     plan(sums, false);
     while (!ended_ && !failure_)
@@ -97,7 +94,6 @@ class Supersteps {
       else
         team_.hold([&] { together(); });
     if (failure_) std::rethrow_exception(failure_);
-    if (counts_.keeps_log) counts_.seconds += seconds_of_thread() - before_all;
     return complete_;
   }
 
@@ -276,7 +272,6 @@ class Supersteps {
     counts_.letters += sums.letters;
     counts_.bytes += sums.letters * sizeof(Letter);
     counts_.sent += sums.sent;
-    if (counts_.keeps_log) log();
     ++counts_.supersteps;
     counts_.runs += sums.runs;
     done_ += sums.expansions;
@@ -284,21 +279,6 @@ class Supersteps {
     plan(sums, static_cast<double>(sums.first) <
                    (1 - most_repeats) * static_cast<double>(sums.expansions));
     reported_.count(done_, [&] { return progress(sums.reached); });
-  }
-
-  void log() {
-    auto& runs = counts_.log.emplace_back();
-    for (const std::size_t p : active_) {
-      auto& run = runs.emplace_back();
-      run.piece = static_cast<Index>(p);
-      run.expansions = after_[p].work.expansions;
-      const CutPiece& cut = cut_.pieces[p];
-      Outbox& box = pieces_[p]->mail().of(superstep_);
-      for (std::size_t peer = 0; peer < cut.peer_count(); ++peer)
-        if (box.has_letters(superstep_, peer))
-          run.letters.push_back(
-              {cut.peers[peer].piece, box.template letters<Letter>(superstep_, peer).size()});
-    }
   }
 
   /// The next superstep.

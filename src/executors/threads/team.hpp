@@ -7,6 +7,7 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 #include <plexway/common/blocks.hpp>
 #include <plexway/executors.hpp>
@@ -15,6 +16,7 @@
 #include "complexes/partition/deal.hpp"
 
 #include "executors/threads/crowding.hpp"
+#include "executors/threads/rank_mail.hpp"
 
 namespace plexway {
 
@@ -83,8 +85,18 @@ class Team {
   [[nodiscard]] int size() const { return size_; }
   /// The processes that share pieces, or null, and which pieces are ours.
   [[nodiscard]] PieceRanks* ranks() const { return ranks_; }
-  [[nodiscard]] Deal deal() const {
-    return ranks_ == nullptr ? Deal{} : Deal{ranks_->rank(), ranks_->count()};
+  [[nodiscard]] Deal deal() const { return deal_of(ranks_); }
+
+  /// Is it so for any process? All call it.
+  [[nodiscard]] bool any(bool here) const { return sum_of(ranks_, here ? 1 : 0) > 0; }
+  /// Is work(i) true for any i < count of any process? All work is done.
+  template <class Work>
+  [[nodiscard]] bool any(std::size_t count, const Work& work) const {
+    std::atomic<bool> found{false};
+    each(count, [&](std::size_t i) {
+      if (work(i)) found.store(true, std::memory_order_relaxed);
+    });
+    return any(found.load());
   }
 
   /// Calls work(i, n) with i = 0 to n - 1 at once, 0 on the calling thread, and throws the first
@@ -207,6 +219,37 @@ class Team {
   PieceRanks* ranks_;
   mutable Held* held_ = nullptr;
   mutable bool alone_ = false;  ///< held, but by one thread
+};
+
+/// Work that comes in turns and belongs to threads, whose caches have what it needs: a thread does
+/// its own and then takes what others have not come to, from the end. Who does what must change
+/// nothing.
+class OwnedWork {
+ public:
+  /// At most so much in a turn.
+  explicit OwnedWork(std::size_t most) : taken_(most) {}
+
+  /// One thread's share of work(i) for all i < count, all done when all threads have called it.
+  /// `owner` gives a number for i: thread owner(i) % threads has it. `turn` is another one each
+  /// time, never 0.
+  template <class Owner, class Work>
+  void share(std::size_t turn, int thread, int threads, std::size_t count, const Owner& owner,
+             const Work& work) {
+    const auto take = [&](std::size_t i) {
+      std::atomic<std::size_t>& taken = taken_[i];
+      if (taken.load(std::memory_order_relaxed) != turn &&
+          taken.exchange(turn, std::memory_order_relaxed) != turn)
+        work(i);
+    };
+    const auto all = static_cast<std::size_t>(threads), own = static_cast<std::size_t>(thread);
+    for (std::size_t i = 0; i < count; ++i)
+      if (owner(i) % all == own) take(i);
+    if (threads > 1)
+      for (std::size_t i = count; i-- > 0;) take(i);
+  }
+
+ private:
+  std::vector<std::atomic<std::size_t>> taken_;  // in which turn last
 };
 
 }  // namespace plexway

@@ -2,13 +2,20 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 
-#include "executors/threads/piece_post.hpp"
+#include <plexway/executors.hpp>
+#include <plexway/solve/accuracy.hpp>
+#include <plexway/solve/distance_field.hpp>
+#include <plexway/solve/options.hpp>
+#include <plexway/source/point_source.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
+
+#include "executors/threads/rank_mail.hpp"
 #include "executors/threads/scheduler.hpp"
 #include "executors/threads/supersteps.hpp"
 #include "executors/threads/team.hpp"
+#include "labels/workspace_state.hpp"
 
 namespace plexway {
 
@@ -39,20 +46,15 @@ class WindowScheduler : public TeamScheduler<Real, false> {
     return complete;
   }
   [[nodiscard]] Deal deal() const { return this->team_.deal(); }
-  /// write(piece, parcel) for each piece of ours, read(piece, what was written) for all others.
+  /// As share_pieces.
   template <class Write, class Read>
   void share(std::size_t pieces, const Write& write, const Read& read) const {
-    if (this->team_.ranks() == nullptr) return;
-    const SharedPieces shared(*this->team_.ranks(), deal(), pieces, write);
-    this->workspace_.pieces.counts().sent += shared.sent();
-    for (std::size_t p = 0; p < pieces; ++p)
-      if (!deal().is_ours(p)) read(p, shared.of(p));
+    this->workspace_.pieces.counts().sent += share_pieces(this->team_.ranks(), pieces, write, read);
   }
-  /// Is it so for any process?
-  [[nodiscard]] bool any(bool here) const {
-    std::uint64_t sum[] = {here ? 1u : 0u};
-    add_up(this->team_.ranks(), sum);
-    return sum[0] > 0;
+  /// As Team::any and Team::each.
+  template <class Work>
+  [[nodiscard]] bool any(std::size_t count, const Work& work) const {
+    return this->team_.any(count, work);
   }
   template <class Work>
   void each(std::size_t count, const Work& work) const {
@@ -62,5 +64,13 @@ class WindowScheduler : public TeamScheduler<Real, false> {
  private:
   std::size_t size_;
 };
+
+/// WindowSolver::solve_by with a team, in pieces, the same result whatever the number of threads:
+/// in a single piece, or in an order that pieces cannot keep, by one thread.
+template <class Real>
+[[nodiscard]] bool solve_by_windows(const OpenMP& executor, const TriangleMesh<Real>& mesh,
+                                    std::span<const PointSource> sources, Accuracy accuracy,
+                                    const PropagateOptions& options,
+                                    WorkspaceState<Real>& workspace, DistanceField<Real>& field);
 
 }  // namespace plexway

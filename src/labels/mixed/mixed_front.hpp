@@ -22,8 +22,7 @@ class MixedFront : public Wavefront<Real, SimplexLabel, DualQueue<Real>, true> {
 
   [[gnu::always_inline]] void accept(Index s, std::size_t hinge, const Label& label, Real distance,
                                      Index source) {
-    if (this->reached(s) && this->waits(s)) this->queue().note(distance);
-    Base::accept(s, hinge, label, distance, source);
+    Base::take(s, hinge, label, distance, source);
   }
   template <class DistanceOf>
   [[gnu::always_inline]] bool next(Index& s, DistanceOf distance_of) {

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "labels/mixed/mixed_piece.hpp"
-#include "labels/wireframe/wire_front.hpp"
 #include "labels/wireframe/wire_propagation.hpp"
-#include "labels/wireframe/wire_step.hpp"
+#include "labels/wireframe/wire_spread.hpp"
 
 namespace plexway {
 

@@ -11,7 +11,8 @@
 
 #include <plexway/common/ids.hpp>
 
-#include "labels/room.hpp"
+#include "complexes/partition/cut.hpp"
+#include "labels/label_memory.hpp"
 
 namespace plexway {
 
@@ -84,5 +85,51 @@ struct PieceWork {
   std::size_t first = 0;  ///< simplices reached that no label had reached before
   std::size_t letters = 0;
 };
+
+/// A piece's turns, one horizon after the other.
+template <class Real>
+class PieceTurns {
+ public:
+  /// run_to(horizon, most) returns how many expansions it made. What is nearer than the horizon
+  /// before comes late: it repeats what was done without it.
+  template <class RunTo>
+  PieceWork run(Real nearest, Real horizon, std::size_t most, const RunTo& run_to) {
+    PieceWork work;
+    const std::size_t late = nearest < before_ ? run_to(std::min(before_, horizon), most) : 0;
+    work.first = run_to(horizon, most - late);
+    work.expansions = late + work.first;
+    before_ = std::max(before_, horizon);
+    return work;
+  }
+
+ private:
+  Real before_ = 0;
+};
+
+/// Posts offers to simplices of other pieces: peer by peer, each in the order in which they were
+/// made. None is left. Returns the least of their distances.
+template <class Real, class Letter, class PieceOf>
+Real post_offers(std::vector<Letter>& letters, const CutPiece& piece, const PieceOf& piece_of,
+                 Outboxes& mail, std::size_t superstep, PieceWork& work) {
+  Real least = std::numeric_limits<Real>::infinity();
+  work.letters = letters.size();
+  if (letters.empty()) return least;
+  std::size_t place = 0;  // often that of the one before
+  const auto peer_of = [&](const Letter& letter) {
+    const auto other = static_cast<Index>(piece_of(letter.to));
+    if (piece.peers[place].piece != other) place = piece.place_of(other);
+    return place;
+  };
+  std::vector<std::size_t> counts(piece.peer_count(), 0);
+  for (const Letter& letter : letters) ++counts[peer_of(letter)];
+  Outbox& box = mail.of(superstep);
+  box.start<Letter>(superstep, counts);
+  for (const Letter& letter : letters) {
+    least = std::min(least, letter.distance);
+    box.put(peer_of(letter), letter);
+  }
+  letters.clear();
+  return least;
+}
 
 }  // namespace plexway

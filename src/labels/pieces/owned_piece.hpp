@@ -11,10 +11,54 @@
 #include <plexway/solve/options.hpp>
 
 #include "complexes/partition/cut.hpp"
+#include "labels/front.hpp"
 #include "labels/pieces/mail.hpp"
-#include "labels/pieces/owned_front.hpp"
+#include "labels/wavefront.hpp"
 
 namespace plexway {
+
+/// An offer to a simplex of another piece.
+template <class Real, class SimplexLabel>
+struct OwnedLetter {
+  Index to;  ///< the domain's number
+  Index source;
+  Index hinge;
+  Real distance;
+  SimplexLabel label;
+};
+
+/// The front of a piece that shares the labels of the whole: its own simplices it reads and writes
+/// there; what belongs to another piece is as if it were unreached, and offers to it become
+/// letters.
+template <class Real, class SimplexLabel, bool kLabels>
+class OwnedFront : public Wavefront<Real, SimplexLabel, DualQueue<Real>, kLabels> {
+ public:
+  using Base = Wavefront<Real, SimplexLabel, DualQueue<Real>, kLabels>;
+  using typename Base::Label;
+  using Letter = OwnedLetter<Real, SimplexLabel>;
+
+  /// `piece_of` each simplex; `none` of the sentinel.
+  OwnedFront(const Base& base, const Index* piece_of, Index piece)
+      : Base(base), piece_of_(piece_of), piece_(piece) {}
+
+  [[nodiscard, gnu::always_inline]] bool reached(Index s) const {
+    return (piece_of_[s] == piece_ || piece_of_[s] == none) && Base::reached(s);
+  }
+  [[gnu::always_inline]] void accept(Index s, std::size_t hinge, const Label& label, Real distance,
+                                     Index source) {
+    if (piece_of_[s] == piece_) [[likely]]
+      Base::accept(s, hinge, label, distance, source);
+    else
+      letters_.push_back({s, source, static_cast<Index>(hinge), distance, label});
+  }
+
+  [[nodiscard]] std::vector<Letter>& letters() { return letters_; }
+
+ private:
+  const Index* piece_of_;
+  Index piece_;
+  std::vector<Letter> letters_;
+};
 
 /// What a piece keeps from solve to solve where labels are the whole's.
 struct OwnedRoom {
@@ -84,39 +128,18 @@ class OwnedPiece {
       front_.take(letter.to, letter.hinge, letter.label, letter.distance, letter.source);
   }
 
-  /// What is nearer than the horizon before comes late: it repeats what was done without it.
   PieceWork run(Real horizon, std::size_t most, std::size_t) {
-    PieceWork work;
-    const std::size_t before = front_.expansions();
-    if (nearest() < horizon_) run_to(std::min(horizon_, horizon), most);
-    const std::size_t late = front_.expansions() - before;
-    run_to(horizon, most - late);
-    horizon_ = std::max(horizon, horizon_);
-    work.expansions = front_.expansions() - before;
-    work.first = work.expansions - late;
-    return work;
+    return turns_.run(nearest(), horizon, most, [&](Real until, std::size_t some) {
+      const std::size_t before = front_.expansions();
+      run_to(until, some);
+      return front_.expansions() - before;
+    });
   }
 
   Real post(std::size_t superstep, PieceWork& work) {
-    Real least = std::numeric_limits<Real>::infinity();
-    std::vector<Letter>& letters = front_.letters();
-    if (letters.empty()) return least;
-    for (const Letter& letter : letters) least = std::min(least, letter.distance);
-    // Peer by peer, each in the order in which they were offered.
-    std::stable_sort(letters.begin(), letters.end(), [this](const Letter& a, const Letter& b) {
-      return cut_.piece_of[a.to] < cut_.piece_of[b.to];
-    });
-    Outbox& box = room_.mail.of(superstep);
-    box.start<Letter>(superstep, own_.peer_count(), letters.size());
-    auto next = letters.begin();
-    for (std::size_t peer = 0; peer < own_.peer_count(); ++peer) {
-      for (; next != letters.end() && cut_.piece_of[next->to] == own_.peers[peer].piece; ++next)
-        box.add(*next);
-      box.end_peer();
-    }
-    letters.clear();
-    work.letters = box.count();
-    return least;
+    return post_offers<Real>(
+        front_.letters(), own_, [this](Index s) { return cut_.piece_of[s]; }, room_.mail, superstep,
+        work);
   }
 
   [[nodiscard]] PropagateStatistics statistics() const {
@@ -147,7 +170,7 @@ class OwnedPiece {
   const Propagation& propagation_;
   Rule rule_;
   bool last_resort_ = false;
-  Real horizon_ = 0;
+  PieceTurns<Real> turns_;
   PropagateStatistics others_;
 };
 

@@ -61,19 +61,14 @@ TrianglePatches<Real>::TrianglePatches(const TriangleMesh<Real>& mesh, std::size
 
 template <class Real>
 void TrianglePatches<Real>::take_records(const TriangleMesh<Real>& mesh, Index number) {
-  const CutPiece& piece = cut_.pieces[number];
   TrianglePatch<Real>& patch = patches_[number];
-  /// All triangles over an edge of a ghost are here if one of them is the piece's own.
-  const auto is_own_over = [&](Index f, std::size_t e) {
+  // All triangles over an edge of a ghost are here if one of them is the piece's own.
+  patch.triangles = piece_records(mesh, cut_, number, [&](Index f, std::size_t e) {
     return any_over_edge(mesh.triangles(), f, e,
                          [&](Index g) { return cut_.piece_of[g] == number; });
-  };
-  patch.triangles = piece_records(mesh, cut_, number, is_own_over);
-  patch.leads_in.assign(piece.simplices.size() - piece.own, 0);
-  for (std::size_t i = piece.own; i < piece.simplices.size(); ++i)
-    for (std::size_t e = 0; e < 3; ++e)
-      if (is_own_over(piece.simplices[i], e))
-        patch.leads_in[i - piece.own] |= static_cast<std::uint8_t>(1 << e);
+  });
+  patch.leads_in =
+      leads_in(std::span<const TriangleRecord<Real>>(patch.triangles), cut_.pieces[number].own);
 }
 
 template <class Real>

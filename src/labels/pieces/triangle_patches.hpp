@@ -10,9 +10,8 @@
 #include "complexes/partition/cut.hpp"
 #include "complexes/partition/deal.hpp"
 #include "labels/front.hpp"
+#include "labels/label_memory.hpp"
 #include "labels/pieces/mail.hpp"
-#include "labels/room.hpp"
-#include "labels/visit_marks.hpp"
 
 namespace plexway {
 
@@ -28,6 +27,19 @@ bool any_over_edge(std::span<const TriangleRecord<Real>> triangles, Index f, std
     if (!(across & Across::fan)) return false;
     across = triangles[g].across[k];
   }
+}
+
+/// Of each ghost, which are the triangles from `own` on: bit e, if an own one lies over its edge e.
+template <class Real>
+std::vector<std::uint8_t> leads_in(std::span<const TriangleRecord<Real>> triangles,
+                                   std::size_t own) {
+  std::vector<std::uint8_t> bits(triangles.size() - 1 - own, 0);
+  for (std::size_t g = 0; g < bits.size(); ++g)
+    for (std::size_t e = 0; e < 3; ++e)
+      if (any_over_edge(triangles, static_cast<Index>(own + g), e,
+                        [own](Index f) { return f < own; }))
+        bits[g] |= static_cast<std::uint8_t>(1 << e);
+  return bits;
 }
 
 /// The triangles of a piece by its numbers, its own and ghosts, and a sentinel.

@@ -36,13 +36,6 @@ class PieceFront : public Wavefront<Real, SimplexLabel, DualQueue<Real>, kLabels
   /// So many simplices take what they are offered: those of the piece, or the ghosts, too.
   void set_open(std::size_t simplices) { own_ = static_cast<Index>(simplices); }
 
-  /// A label from elsewhere, for a simplex of the piece or a ghost.
-  void take(Index s, std::size_t hinge, const Label& label, Real distance, Index source) {
-    const bool waits = this->reached(s) && this->waits(s);
-    Base::accept(s, hinge, label, distance, source);
-    if (waits) this->queue().note(distance);
-  }
-
  private:
   Index own_;
 };

@@ -12,7 +12,6 @@
 
 #include "complexes/partition/range_cut.hpp"
 #include "labels/pieces/mail.hpp"
-#include "labels/wireframe/wire_front.hpp"
 #include "labels/wireframe/wire_spread.hpp"
 
 namespace plexway {
@@ -28,15 +27,12 @@ struct WireLetter {
 template <class Real>
 struct WireRoom {
   FrontStorage front;
-  std::vector<std::vector<WireLetter<Real>>> letters;  ///< to each peer
+  std::vector<WireLetter<Real>> letters;  ///< to be posted
   Outboxes mail;
 
   [[nodiscard]] std::size_t bytes() const {
-    std::size_t sum = front.capacity * 2 * sizeof(Index) +
-                      front.heap.capacity() * sizeof(front.heap[0]) + mail.box[0].bytes() +
-                      mail.box[1].bytes() + letters.capacity() * sizeof(letters[0]);
-    for (const auto& peer : letters) sum += peer.capacity() * sizeof(peer[0]);
-    return sum;
+    return front.capacity * 2 * sizeof(Index) + front.heap.capacity() * sizeof(front.heap[0]) +
+           mail.box[0].bytes() + mail.box[1].bytes() + letters.capacity() * sizeof(letters[0]);
   }
 };
 
@@ -59,8 +55,6 @@ struct WirePieces {
     });
     rooms.clear();
     rooms.resize(cut.cut.pieces.size());
-    for (std::size_t p = 0; p < rooms.size(); ++p)
-      rooms[p].letters.resize(cut.cut.pieces[p].peer_count());
     identity = wireframe.identity();
     size = about;
   }
@@ -95,7 +89,7 @@ class WirePiece {
         front_(prepare(room_, end_ - begin_), step),
         patience_(patience) {
     for (Outbox& box : room_.mail.box) box.forget();
-    for (auto& peer : room_.letters) peer.clear();
+    room_.letters.clear();
   }
   WirePiece(const WirePiece&) = delete;
   WirePiece& operator=(const WirePiece&) = delete;
@@ -110,37 +104,20 @@ class WirePiece {
     spread_.offer(letter.to, letter.distance, letter.source, front_);
   }
 
-  /// What is nearer than the horizon before comes late: it repeats what was done without it.
   PieceWork run(Real horizon, std::size_t most, std::size_t) {
-    PieceWork work;
-    std::size_t left = most;
-    if (nearest() < horizon_) run_to(std::min(horizon_, horizon), left);
-    const std::size_t late = most - left;
-    run_to(horizon, left);
-    horizon_ = std::max(horizon, horizon_);
-    work.expansions = most - left;
-    work.first = work.expansions - late;
+    const PieceWork work = turns_.run(nearest(), horizon, most, [&](Real until, std::size_t some) {
+      std::size_t left = some;
+      run_to(until, left);
+      return some - left;
+    });
     expansions_ += work.expansions;
     return work;
   }
 
   Real post(std::size_t superstep, PieceWork& work) {
-    std::size_t count = 0;
-    for (const auto& peer : room_.letters) count += peer.size();
-    Real least = std::numeric_limits<Real>::infinity();
-    work.letters = count;
-    if (count == 0) return least;
-    Outbox& box = room_.mail.of(superstep);
-    box.start<Letter>(superstep, own_.peer_count(), count);
-    for (auto& peer : room_.letters) {
-      for (const Letter& letter : peer) {
-        least = std::min(least, letter.distance);
-        box.add(letter);
-      }
-      box.end_peer();
-      peer.clear();
-    }
-    return least;
+    return post_offers<Real>(
+        room_.letters, own_, [this](Index v) { return cut_.piece_of(v); }, room_.mail, superstep,
+        work);
   }
 
   [[nodiscard]] PropagateStatistics statistics() const {
@@ -157,13 +134,10 @@ class WirePiece {
     WirePiece& piece;
     Index begin, count;
     [[nodiscard]] bool has(Index v) const { return v - begin < count; }
-    void tell(Index to, Real distance, Index source) const { piece.tell(to, distance, source); }
+    void tell(Index to, Real distance, Index source) const {
+      piece.room_.letters.push_back({to, source, distance});
+    }
   };
-  void tell(Index to, Real distance, Index source) {
-    const auto other = static_cast<Index>(cut_.piece_of(to));
-    if (own_.peers[place_].piece != other) place_ = own_.place_of(other);
-    room_.letters[place_].push_back({to, source, distance});
-  }
 
   void run_to(Real horizon, std::size_t& left) {
     front_.set_horizon(horizon);
@@ -196,8 +170,7 @@ class WirePiece {
   Spread spread_;
   WireFront<Real> front_;
   std::size_t patience_;
-  std::size_t place_ = 0;  // of the peer that was told last
-  Real horizon_ = 0;
+  PieceTurns<Real> turns_;
   std::size_t expansions_ = 0;
 };
 

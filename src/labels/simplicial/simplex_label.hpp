@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "complexes/simplicial/flat_domain.hpp"
-#include "labels/label_storage.hpp"
+#include "labels/label_memory.hpp"
 
 namespace plexway {
 

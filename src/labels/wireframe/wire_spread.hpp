@@ -6,7 +6,34 @@
 
 #include <plexway/wireframe/wireframe.hpp>
 
+#include "kernel/hinge.hpp"
+#include "labels/front.hpp"
+
 namespace plexway {
+
+/// An edge hands its virtual source on over a vertex: the K = 0 hinge kernel, word for word. The
+/// hinge is a point, so no straight line passes through: every path bends there, and the new
+/// virtual source is the vertex itself. What all edges at a vertex learn from each other is thus a
+/// single number, the sigma of that bend: the label belongs to the hinge.
+template <class Real>
+struct KernelWireStep {
+  /// Sigma at the far end of an edge of this length from sigma at its near end.
+  static Real over(Real sigma, Real length) {
+    using Kernel = kernel::HingeKernel<Real, 0>;
+    const Real none_in_a_point[1] = {0};
+    const Real squared[1] = {length * length};
+    const auto pose = Kernel::make_pose(none_in_a_point);
+    const auto S = Kernel::locate(pose, squared);
+    return Kernel::carry(pose, S, sigma, S, false, 0).sigma;
+  }
+};
+
+/// The same, with what K = 0 leaves of it: walk to the hinge. (That this is the relaxation of
+/// Dijkstra, A note on two problems in connexion with graphs, 1959, is how the field knows it.)
+template <class Real>
+struct WireStep {
+  static Real over(Real sigma, Real length) { return sigma + length; }
+};
 
 /// To one who has all vertices.
 struct AllVertices {
@@ -119,6 +146,41 @@ class WireSpread {
   Index* source_;
   Real radius_;
   std::size_t updates_ = 0, reached_ = 0, looks_ = 0;
+};
+
+/// What waits in a wireframe that others offer to as well, up to a horizon: in two queues, and when
+/// those have looked too often nearest first.
+template <class Real>
+class WireFront {
+ public:
+  WireFront(FrontStorage& storage, Real step) : dual_(storage, step), heap_(storage) {}
+
+  void push(Index v, Real distance, bool wanted = true) {
+    if (sorted_) return heap_.push(v, distance);
+    if (!wanted) dual_.note(distance);
+    dual_.push(v, distance, wanted);
+  }
+  template <class DistanceOf>
+  bool pop(Index& v, const DistanceOf& distance_of) {
+    if (!sorted_) return dual_.pop(v, distance_of);
+    return heap_.nearest() < horizon_ && heap_.pop(v, distance_of);
+  }
+  [[nodiscard]] Real nearest() const { return sorted_ ? heap_.nearest() : dual_.nearest(); }
+  void set_horizon(Real horizon) {
+    horizon_ = horizon;
+    dual_.set_horizon(horizon);
+  }
+  /// From now on nearest first; whose label waits must be added anew.
+  void sort() { sorted_ = true; }
+  [[nodiscard]] bool sorted() const { return sorted_; }
+  /// The two queues, which one who spreads by them alone may take and put back.
+  [[nodiscard]] DualQueue<Real>& dual() { return dual_; }
+
+ private:
+  DualQueue<Real> dual_;
+  PriorityQueue<Real> heap_;
+  Real horizon_ = std::numeric_limits<Real>::infinity();
+  bool sorted_ = false;
 };
 
 }  // namespace plexway

@@ -9,7 +9,7 @@
 #include <plexway/error.hpp>
 #include <plexway/executors/gl.hpp>
 
-#include "executors/threads/piece_post.hpp"
+#include "executors/threads/rank_mail.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/make_complex.hpp"

@@ -17,9 +17,8 @@
 #include <plexway/shape/support.hpp>
 #include <plexway/support.hpp>
 
-#include "executors/parts/same_rows.hpp"
 #include "executors/same_work.hpp"
-#include "executors/threads/piece_post.hpp"
+#include "executors/threads/rank_mail.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"

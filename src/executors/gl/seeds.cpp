@@ -1,13 +1,16 @@
-#include "executors/gl/solid_seeds.hpp"
+#include "executors/gl/seeds.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <iterator>
 #include <limits>
 
+#include "labels/read_out.hpp"
 #include "labels/solid/plain_solid_rule.hpp"
 #include "labels/solid/solid_propagation.hpp"
 #include "labels/solid/solid_read_out.hpp"
+#include "labels/surface/saddle_rule.hpp"
+#include "labels/surface/triangle_propagation.hpp"
 #include "labels/wavefront.hpp"
 
 namespace plexway::gl {
@@ -85,6 +88,42 @@ PropagateOptions without_limits(const PropagateOptions& options) {
 }
 
 }  // namespace
+
+void SurfaceSeeds::add(const TriangleMesh<float>& mesh, std::span<const PointSource> sources,
+                       std::size_t field, WorkspaceState<float>& workspace) {
+  const std::size_t faces = mesh.face_count(), first_cell = field * faces;
+  const std::size_t first_vertex = field * mesh.vertex_count();
+  const PropagateOptions options;
+  using Wave = Wavefront<float, SaddleLabel<float>, DualQueue<float>, true>;
+  using Rule = SaddleRule<float, Wave>;
+  workspace.front.reserve(faces);
+  workspace.start(faces, true);
+  Wave front(workspace.marks, workspace.saddles.reserve(faces + 1),
+             DualQueue<float>(workspace.front, std::numeric_limits<float>::infinity()),
+             workspace.source.data(), faces, mesh.unit(), options);
+  const Rule rule(mesh.triangles(), front, false);
+  TrianglePropagation<float, Rule, Wave, true> propagation(mesh, workspace, rule, front, options);
+  for (std::size_t n = 0; n < sources.size(); ++n)
+    propagation.seed(sources[n], static_cast<Index>(n));
+
+  front.drain([&](Index f) {
+    const SaddleLabel<float>& label = front.label(f);
+    const auto via = static_cast<GLuint>(front.hinge(f) | std::size_t{front.source(f)} << 2);
+    waiting.push_back(
+        {static_cast<GLuint>(first_cell + f), std::bit_cast<GLuint>(label.distance())});
+    labels.push_back({{label.x[0], label.x[1], label.x[2], label.x[3]},
+                      label.h[0],
+                      via,
+                      {label.h[2], label.h[3]}});
+  });
+
+  // The sources themselves, exactly, and the corners of triangles they lie in.
+  for (std::size_t n = 0; n < sources.size(); ++n)
+    offer_source(mesh, sources[n], [&](Index v, double d) {
+      offers.push_back({static_cast<GLuint>(first_vertex + v),
+                        std::bit_cast<GLuint>(static_cast<float>(d)), static_cast<GLuint>(n), 0});
+    });
+}
 
 void SolidSeeds::add(const TetMesh<float>& mesh, std::span<const PointSource> sources,
                      std::size_t field, WorkspaceState<float>& workspace) {

@@ -1,9 +1,7 @@
-#include "executors/threads/window_team.hpp"
 
 #include <cstddef>
 #include <span>
 
-#include "executors/threads/piece_size.hpp"
 #include "executors/threads/window_scheduler.hpp"
 #include "windows/solve_by.inl"
 

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <type_traits>
+#include <vector>
+
+#include <plexway/common/ids.hpp>
+
+namespace plexway {
+
+/// Per simplex: reached in this propagation or an earlier one, waiting or not, and by which hinge
+/// the path came in. Two bytes, and nothing to clear between propagations: marks of earlier ones
+/// carry an older number.
+class VisitMarks {
+ public:
+  using Mark = std::uint16_t;
+  static constexpr Mark hinge_mask = 7, waiting = 8;  // simplices have up to 5 facets
+  static constexpr int epoch_shift = 4;
+
+  void resize(std::size_t simplices) {
+    if (marks_.size() != simplices) marks_.assign(simplices, 0), epoch_ = 0;
+  }
+  /// All unreached.
+  void start() {
+    if (++epoch_ == 1 << (16 - epoch_shift)) {
+      std::fill(marks_.begin(), marks_.end(), Mark{0});
+      epoch_ = 1;
+    }
+    current_ = static_cast<Mark>(epoch_ << epoch_shift);
+  }
+  [[nodiscard]] Mark* data() { return marks_.data(); }
+  [[nodiscard]] const Mark* data() const { return marks_.data(); }
+  [[nodiscard]] Mark current() const { return current_; }
+  [[nodiscard]] bool reached(Index s) const { return (marks_[s] ^ current_) < (1 << epoch_shift); }
+  [[nodiscard]] std::size_t hinge(Index s) const { return marks_[s] & hinge_mask; }
+  [[nodiscard]] std::size_t bytes() const { return marks_.capacity() * sizeof(Mark); }
+
+ private:
+  std::vector<Mark> marks_;
+  int epoch_ = 0;
+  Mark current_ = 0;
+};
+
+/// Room for one label a simplex, allocated without being touched.
+template <class Label>
+struct LabelStorage {
+  std::unique_ptr<Label[]> labels;
+  std::size_t count = 0;
+
+  Label* reserve(std::size_t simplices) {
+    if (count != simplices) {
+      labels = std::make_unique_for_overwrite<Label[]>(simplices);
+      count = simplices;
+    }
+    return labels.get();
+  }
+  [[nodiscard]] std::size_t bytes() const { return count * sizeof(Label); }
+};
+
+/// Memory for plain values of any type, kept from solve to solve: it grows and is never cleared.
+class Room {
+ public:
+  /// Room for `count` values, the first `kept` of which stay what they are.
+  template <class T>
+  T* reserve(std::size_t count, std::size_t kept = 0) {
+    static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= alignment);
+    if (const std::size_t wanted = count * sizeof(T); wanted > bytes_) {
+      std::unique_ptr<std::byte, Free> grown(
+          static_cast<std::byte*>(::operator new (wanted, std::align_val_t{alignment})));
+      if (kept > 0) std::memcpy(grown.get(), memory_.get(), kept * sizeof(T));
+      memory_ = std::move(grown);
+      bytes_ = wanted;
+    }
+    return reinterpret_cast<T*>(memory_.get());
+  }
+  /// So many values it has room for.
+  template <class T>
+  [[nodiscard]] std::size_t capacity() const {
+    return bytes_ / sizeof(T);
+  }
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+ private:
+  static constexpr std::size_t alignment = 64;
+  struct Free {
+    void operator()(std::byte* memory) const {
+      ::operator delete (memory, std::align_val_t{alignment});
+    }
+  };
+  std::unique_ptr<std::byte, Free> memory_;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace plexway
