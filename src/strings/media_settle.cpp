@@ -343,11 +343,13 @@ MediaSolver::Outcome MediaSolver::settle(Attempt& a, Index to, double least) {
       continue;
     }
     if (useless) return Outcome::longer;
-    // What is held may gain a little.
-    const double length = offset(a) + string.length - (string.held > 0 ? 1e-3 : 0);
+    const double length = offset(a) + string.length;
     if (!(string.length < least) || !(length < direct_) ||
-        !(length * (1 + 1e-12) < limit(to, last_leg(a))))
-      return Outcome::longer;
+        !(length * (1 + 1e-12) < limit(to, last_leg(a)))) {
+      if (string.held == 0) return Outcome::longer;
+      string.hold(0);  // what is held may gain
+      continue;
+    }
     const std::size_t leg = blocked(a, to);
     if (leg < a.legs.size()) {
       if (!insert_touched(a, leg, to)) break;

@@ -66,13 +66,13 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
     identity_ = mesh.identity();
     unit_ = mesh.unit();
   }
-  std::vector<strings::Source> own;
+  sources_.clear();
   inside_.clear();
   inside_.reserve(sources.size());
   for (const PointSource& s : sources) {
     if (s.vertex == none)
-      inside_.emplace_back(mesh.inside_tet(s.simplex).first, static_cast<Index>(own.size()));
-    own.push_back(source_of(mesh, *space_, s));
+      inside_.emplace_back(mesh.inside_tet(s.simplex).first, static_cast<Index>(sources_.size()));
+    sources_.push_back(source_of(mesh, *space_, s));
   }
   std::sort(inside_.begin(), inside_.end());
   const std::size_t vertices = mesh.vertex_count();
@@ -85,7 +85,7 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
                              distance * mesh.unit()}))
         throw Cancelled("cancelled by the progress callback");
     };
-  field.complete = solver_->solve(own, limits);
+  field.complete = solver_->solve(sources_, limits);
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   field.distance.resize(vertices);
   field.label.assign(sources.size() > 1 ? vertices : 0, none);
@@ -137,7 +137,10 @@ SolidStrings::Found SolidStrings::at(const TetMesh<Real>& mesh, Index tet,
   return found(static_cast<Index>(space_->vertices()));
 }
 
-std::size_t SolidStrings::bytes() const { return sizeof(*this) + (solver_ ? solver_->bytes() : 0); }
+std::size_t SolidStrings::bytes() const {
+  return sizeof(*this) + (solver_ ? solver_->bytes() : 0) +
+         sources_.capacity() * sizeof(strings::Source);
+}
 
 template std::shared_ptr<const strings::SolidSpace> space_of(const TetMesh<float>&);
 template std::shared_ptr<const strings::SolidSpace> space_of(const TetMesh<double>&);

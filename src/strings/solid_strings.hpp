@@ -61,6 +61,7 @@ class SolidStrings {
   std::shared_ptr<const strings::SolidSpace> space_;  // the solid's
   std::unique_ptr<strings::Solver> solver_;
   mutable std::mutex asked_;
+  std::vector<strings::Source> sources_;         // of a solve; kept for its memory
   std::vector<std::pair<Index, Index>> inside_;  // tetrahedra with sources inside, and these
 };
 
