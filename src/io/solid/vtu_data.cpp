@@ -210,7 +210,7 @@ std::string decode_compressed(Stream& in, const VtuEncoding& encoding, std::uint
     in.take(packed.data(), packed.size());
     const std::size_t before = out.size();
     out.resize(before + size);
-    if (!packing.unpack(packed, {out.data() + before, size}))
+    if (!packing.unpack(packed, std::span(out).subspan(before)))
       in.fail("block " + std::to_string(b) + " does not unpack to " + std::to_string(size) +
               " bytes");
   }
