@@ -10,7 +10,7 @@ namespace plexway::strings {
 // have a side.
 bool MediaSolver::gains(const Point& in, const Point& out, std::span<const Index> doors,
                         Index before, const Point& at, Index row) {
-  MediaString s;
+  String s;
   s.from = at - in;
   s.to = at + out;
   s.slowness.assign(1, slowness(before));
@@ -53,7 +53,7 @@ bool MediaSolver::gains(const Point& in, const Point& out, std::span<const Index
 // Places that are all at a point go where `gains` found them: there the length has a kink, which no
 // pull leaves by itself.
 void MediaSolver::move_apart(Attempt& a, std::size_t begin, const Point& at) {
-  MediaString& s = a.string;
+  String& s = a.string;
   const std::size_t end = begin + apart_.size();
   const double scale =
       .5 * std::min({1., norm(at - s.corner(begin)), norm(s.corner(end + 1) - at)});
@@ -68,7 +68,7 @@ void MediaSolver::move_apart(Attempt& a, std::size_t begin, const Point& at) {
 // A leg without length: is the string as short without it? Then it is dropped.
 bool MediaSolver::collapse(Attempt& a, std::size_t leg, bool& useless) {
   const std::size_t n = a.doors.size();
-  const MediaString& s = a.string;
+  const String& s = a.string;
   const Index own = medium_of_leg(a, leg);
   if ((leg == 0 || medium_of_leg(a, leg - 1) == own) &&
       (leg == n || medium_of_leg(a, leg + 1) == own))
@@ -140,7 +140,7 @@ bool MediaSolver::collapse(Attempt& a, std::size_t leg, bool& useless) {
 bool MediaSolver::leave_patch(Attempt& a, std::size_t i) {
   const Index q = place_of(a, i);
   const auto& patch = space_->patch(q);
-  MediaString& s = a.string;
+  String& s = a.string;
   if (space_->holds(patch, s.at[i], s.wide[i], outside)) return false;
   const Place& plane = *s.places[i];
   const Point d = a.legs[i].to - plane.origin;
@@ -153,7 +153,7 @@ bool MediaSolver::leave_patch(Attempt& a, std::size_t i) {
 }
 
 bool MediaSolver::lift_off_row(Attempt& a, std::size_t i) {
-  MediaString& s = a.string;
+  String& s = a.string;
   const Index row = place_of(a, i), before = medium_of_leg(a, i), after = medium_of_leg(a, i + 1);
   const Point at = s.points[i], in = unit(at - s.corner(i)), out = unit(s.corner(i + 2) - at);
   if (norm(in) == 0 || norm(out) == 0) return false;
@@ -186,7 +186,7 @@ bool MediaSolver::lift_off_row(Attempt& a, std::size_t i) {
 }
 
 bool MediaSolver::lift_off_corner(Attempt& a, std::size_t i) {
-  MediaString& s = a.string;
+  String& s = a.string;
   const Index corner = place_of(a, i), before = medium_of_leg(a, i),
               after = medium_of_leg(a, i + 1);
   const Point at = s.points[i], in = unit(at - s.corner(i)), out = unit(s.corner(i + 2) - at);
@@ -332,7 +332,7 @@ bool MediaSolver::insert_touched(Attempt& a, std::size_t n, Index to) {
 MediaSolver::Outcome MediaSolver::settle(Attempt& a, Index to, double least) {
   constexpr int most = 48;
   constexpr std::size_t loose = 3;
-  MediaString& string = a.string;
+  String& string = a.string;
   const auto hold = [&] { string.hold(std::max(string.bends(), loose) - loose); };
   hold();
   bool useless = false;

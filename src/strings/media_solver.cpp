@@ -318,7 +318,7 @@ Point MediaSolver::end_of_leg(const Attempt& a, std::size_t corner, std::size_t 
 // Instead of places from `begin` to `end` others, at a point.
 void MediaSolver::replace(Attempt& a, std::size_t begin, std::size_t end,
                           std::span<const Index> doors, const Point& at) {
-  MediaString& s = a.string;
+  String& s = a.string;
   const auto b = static_cast<std::ptrdiff_t>(begin), e = static_cast<std::ptrdiff_t>(end);
   const Leg first = a.legs[begin], last = a.legs[end];
   a.doors.erase(a.doors.begin() + b, a.doors.begin() + e);

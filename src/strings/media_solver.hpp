@@ -11,8 +11,8 @@
 #include "strings/chains.hpp"
 #include "strings/corner.hpp"
 #include "strings/labels.hpp"
-#include "strings/media_pull.hpp"
 #include "strings/media_space.hpp"
+#include "strings/pull.hpp"
 #include "strings/solve.hpp"
 
 /// Shortest paths through several media, by strings.
@@ -77,7 +77,7 @@ class MediaSolver {
     bool known = false;
   };
   struct Attempt {
-    MediaString string;
+    String string;
     std::vector<Index> doors;
     std::vector<Leg> legs;
     Index root = 0;
@@ -172,7 +172,7 @@ class MediaSolver {
   std::vector<double> reach_;  // of nodes: the time of their longest edge
   std::vector<Offer> queue_;
   std::unordered_map<Index, Place> corners_;
-  MediaPuller puller_;
+  Puller puller_;
   Corner corner_;
   Attempt base_, attempt_, other_;
   std::vector<Place> copies_;  // of a problem at one point

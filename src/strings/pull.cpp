@@ -1,6 +1,7 @@
 #include "strings/pull.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -8,23 +9,69 @@
 namespace plexway::strings {
 namespace {
 
-Point across(const Place& place, const Point& p) {
+constexpr double outward = 1e-7;  // of the gradient, at an end
+
+Point off_place(const Place& place, const Point& p) {
   const Point d = p - place.origin;
-  return d - dot(d, place.along) * place.along;
+  return d - dot(d, place.along) * place.along - dot(d, place.wide) * place.wide;
+}
+
+// Where between 0 and 1 a string crosses from one slowness to another, `near` off a line on one
+// side and `far` on the other, `way` apart along it. The slope of its length ascends.
+double crossing(double near, double far, double way, double before, double after) {
+  if (before == after) return near / (near + far);
+  constexpr double flat = 1e-12;
+  if (near < flat * way) near = 0;
+  if (far < flat * way) far = 0;
+  if (near == 0 && far == 0) return before < after ? 1 : 0;
+  const double n = near * near, f = far * far, w = way * way;
+  if (near == 0 && before * std::sqrt(f + w) >= after * way) return 0;
+  if (far == 0 && after * std::sqrt(n + w) >= before * way) return 1;
+  double low = 0, high = 1, x = std::clamp(near / (near + far), .1, .9);
+  constexpr int most = 60;
+  for (int round = 0; round < most; ++round) {
+    const double a = std::sqrt(n + x * x * w), b = std::sqrt(f + (1 - x) * (1 - x) * w);
+    const double s =
+        (a > 0 ? before * x * way / a : before) - (b > 0 ? after * (1 - x) * way / b : after);
+    (s > 0 ? high : low) = x;
+    const double bend = before * way * n / (a * a * a) + after * way * f / (b * b * b);
+    double next = bend > 0 ? x - s / bend : -1;
+    if (!(next > low && next < high)) next = (low + high) / 2;
+    if (std::abs(next - x) < 1e-14) return next;
+    x = next;
+  }
+  return x;
+}
+
+// Blocks of D by D, row by row.
+template <std::size_t D>
+using Block = std::array<double, D * D>;
+Block<1> inverse(const Block<1>& m) { return {1 / std::max(m[0], 1e-12)}; }
+Block<2> inverse(const Block<2>& m) {
+  constexpr double least = 1e-12;
+  const double a = std::max(m[0], least), share = m[1] / a,
+               rest = std::max(m[3] - share * m[1], least);
+  return {1 / a + share * share / rest, -share / rest, -share / rest, 1 / rest};
 }
 
 }  // namespace
 
-// Each bend for itself, its neighbours fixed: unfold both sides of its line into a plane.
+// Each bend for itself, its neighbours fixed: unfold both sides of its place into a plane.
 void Puller::pull_each(String& string) const {
   for (std::size_t i = string.held; i < string.bends(); ++i) {
     const Place& place = *string.places[i];
     const Point &from = string.corner(i), &to = string.corner(i + 2);
-    const double a = dot(from - place.origin, place.along), b = dot(to - place.origin, place.along),
-                 near = norm(across(place, from)), far = norm(across(place, to));
-    if (near + far > 0)
-      string.at[i] = std::clamp(a + (b - a) * near / (near + far), place.low, place.high);
-    string.points[i] = place.at(string.at[i]);
+    const double near = norm(off_place(place, from)), far = norm(off_place(place, to));
+    const double before = string.slow(i), after = string.slow(i + 1);
+    if (near + far > 0 || before != after) {
+      const Point a = from - place.origin, way = to - from;
+      const double along = dot(way, place.along), wide = dot(way, place.wide);
+      const double x = crossing(near, far, std::sqrt(along * along + wide * wide), before, after);
+      string.at[i] = std::clamp(dot(a, place.along) + x * along, place.low, place.high);
+      if (place.is_plane) string.wide[i] = dot(a, place.wide) + x * wide;
+    }
+    string.points[i] =
+        place.is_plane ? place.at(string.at[i], string.wide[i]) : place.at(string.at[i]);
   }
 }
 
@@ -36,84 +83,165 @@ double Puller::measure(String& string) {
   double sum = string.held_length;
   Point last = string.corner(string.held);
   for (std::size_t i = string.held; i <= n; ++i) {
-    if (i < n) string.points[i] = string.places[i]->at(string.at[i]);
+    if (i < n) {
+      const Place& place = *string.places[i];
+      string.points[i] =
+          place.is_plane ? place.at(string.at[i], string.wide[i]) : place.at(string.at[i]);
+    }
     const Point& next = i < n ? string.points[i] : string.to;
     const Point leg = next - last;
     lengths_[i] = norm(leg);
     legs_[i] = lengths_[i] > 0 ? 1 / lengths_[i] * leg : Point{0, 0, 0};
-    sum += lengths_[i];
+    sum += string.slow(i) * lengths_[i];
     last = next;
   }
   return sum;
 }
 
+template <std::size_t D>
 void Puller::differentiate(const String& string) {
   constexpr double least = 1e-9;  // a leg without length has no second derivative
   const std::size_t n = string.bends();
-  gradient_.resize(n);
-  diagonal_.resize(n);
-  beside_.resize(n);
+  gradient_.resize(D * n);
+  diagonal_.resize(D * D * n);
+  beside_.resize(D * D * n);
+  const auto axis = [&](std::size_t i, std::size_t a) -> const Point& {
+    return a == 0 ? string.places[i]->along : string.places[i]->wide;
+  };
+  double bent = string.slow(string.held) / std::max(lengths_[string.held], least);
   for (std::size_t i = string.held; i < n; ++i) {
-    const Point& d = string.places[i]->along;
-    const double in = dot(d, legs_[i]), out = dot(d, legs_[i + 1]);
-    gradient_[i] = in - out;
-    diagonal_[i] = (1 - in * in) / std::max(lengths_[i], least) +
-                   (1 - out * out) / std::max(lengths_[i + 1], least);
-    if (i + 1 == n) continue;
-    const Point& e = string.places[i + 1]->along;
-    beside_[i] = -(dot(d, e) - out * dot(e, legs_[i + 1])) / std::max(lengths_[i + 1], least);
+    const double before = string.slow(i), after = string.slow(i + 1);
+    const double next = after / std::max(lengths_[i + 1], least);
+    double in[D], out[D];
+    for (std::size_t a = 0; a < D; ++a) {
+      in[a] = dot(axis(i, a), legs_[i]);
+      out[a] = dot(axis(i, a), legs_[i + 1]);
+      gradient_[D * i + a] = before * in[a] - after * out[a];
+    }
+    for (std::size_t a = 0; a < D; ++a)
+      for (std::size_t b = 0; b < D; ++b) {
+        const double same = a == b ? 1 : 0;
+        diagonal_[D * (D * i + a) + b] =
+            (same - in[a] * in[b]) * bent + (same - out[a] * out[b]) * next;
+      }
+    if (i + 1 < n)
+      for (std::size_t a = 0; a < D; ++a)
+        for (std::size_t b = 0; b < D; ++b) {
+          const Point& e = axis(i + 1, b);
+          beside_[D * (D * i + a) + b] =
+              -(dot(axis(i, a), e) - out[a] * dot(e, legs_[i + 1])) * next;
+        }
+    bent = next;
   }
 }
 
 // The move of each bend by Newton; returns the slope of the length along it.
+template <std::size_t D>
 double Puller::solve(const String& string) {
-  const std::size_t n = string.bends();
-  move_.resize(n);
-  const auto held = [&](std::size_t i) {
+  const std::size_t n = string.bends(), first = string.held;
+  move_.resize(D * n);
+  const auto held = [&](std::size_t i, std::size_t a) {
     const Place& p = *string.places[i];
-    return p.high <= p.low || (string.at[i] <= p.low && gradient_[i] > 0) ||
-           (string.at[i] >= p.high && gradient_[i] < 0);
+    if (a == 1) return !p.is_plane || (i == first && at_start_) || (i + 1 == n && at_end_);
+    if ((i == first && at_start_) || (i + 1 == n && at_end_)) return true;
+    return p.high <= p.low || (string.at[i] <= p.low && gradient_[D * i] > 0) ||
+           (string.at[i] >= p.high && gradient_[D * i] < 0);
   };
-  bool last_held = true;
-  const std::size_t first = string.held;
   for (std::size_t i = first; i < n; ++i) {
-    const bool now = held(i);
-    if (now) {
-      diagonal_[i] = 1;
-      gradient_[i] = 0;
-    } else {
-      diagonal_[i] += 1e-12;
+    double* const diagonal = &diagonal_[D * D * i];
+    double* const behind = i > first ? &beside_[D * D * (i - 1)] : nullptr;
+    double* const ahead = &beside_[D * D * i];
+    for (std::size_t a = 0; a < D; ++a) {
+      if (!held(i, a)) {
+        diagonal[D * a + a] += 1e-12;
+        continue;
+      }
+      for (std::size_t b = 0; b < D; ++b) {
+        diagonal[D * a + b] = diagonal[D * b + a] = 0;
+        if (behind != nullptr) behind[D * b + a] = 0;
+        if (i + 1 < n) ahead[D * a + b] = 0;
+      }
+      diagonal[D * a + a] = 1;
+      gradient_[D * i + a] = 0;
     }
-    if (i > first && (now || last_held)) beside_[i - 1] = 0;
-    last_held = now;
-    move_[i] = -gradient_[i];
-    if (i == first || beside_[i - 1] == 0) continue;
-    const double share = beside_[i - 1] / diagonal_[i - 1];
-    diagonal_[i] = std::max(diagonal_[i] - share * beside_[i - 1], 1e-12);
-    move_[i] -= share * move_[i - 1];
+  }
+  Block<D> before{};  // the inverse of what is left of the block before
+  for (std::size_t i = first; i < n; ++i) {
+    Block<D> now;
+    for (std::size_t a = 0; a < D * D; ++a) now[a] = diagonal_[D * D * i + a];
+    for (std::size_t a = 0; a < D; ++a) move_[D * i + a] = -gradient_[D * i + a];
+    if (i > first) {
+      const double* const c = &beside_[D * D * (i - 1)];
+      for (std::size_t a = 0; a < D; ++a)
+        for (std::size_t k = 0; k < D; ++k) {
+          double share = 0;  // transposed c times the inverse
+          for (std::size_t m = 0; m < D; ++m) share += c[D * m + a] * before[D * m + k];
+          for (std::size_t b = 0; b < D; ++b) now[D * a + b] -= share * c[D * k + b];
+          move_[D * i + a] -= share * move_[D * (i - 1) + k];
+        }
+    }
+    before = inverse(now);
+    for (std::size_t a = 0; a < D * D; ++a) diagonal_[D * D * i + a] = before[a];
   }
   double slope = 0;
   for (std::size_t i = n; i-- > first;) {
-    if (i + 1 < n) move_[i] -= beside_[i] * move_[i + 1];
-    move_[i] /= diagonal_[i];
-    slope += gradient_[i] * move_[i];
+    double right[D];
+    for (std::size_t a = 0; a < D; ++a) {
+      right[a] = move_[D * i + a];
+      if (i + 1 < n)
+        for (std::size_t b = 0; b < D; ++b)
+          right[a] -= beside_[D * (D * i + a) + b] * move_[D * (i + 1) + b];
+    }
+    for (std::size_t a = 0; a < D; ++a) {
+      double sum = 0;
+      for (std::size_t b = 0; b < D; ++b) sum += diagonal_[D * (D * i + a) + b] * right[b];
+      move_[D * i + a] = sum;
+      slope += gradient_[D * i + a] * sum;
+    }
   }
   return slope;
 }
 
 // Along the move. False if that is no shorter, and nothing is changed.
-bool Puller::step(String& string, double least) {
+template <std::size_t D>
+bool Puller::step(String& string, double share, double least) {
   kept_ = string.at;
-  for (std::size_t i = string.held; i < kept_.size(); ++i)
-    string.at[i] = std::clamp(kept_[i] + move_[i], string.places[i]->low, string.places[i]->high);
+  if (D == 2) kept_wide_ = string.wide;
+  for (std::size_t i = string.held; i < kept_.size(); ++i) {
+    string.at[i] =
+        std::clamp(kept_[i] + share * move_[D * i], string.places[i]->low, string.places[i]->high);
+    if (D == 2) string.wide[i] += share * move_[D * i + D - 1];
+  }
   const double length = measure(string);
   if (length <= string.length - least) {
     string.length = length;
     return true;
   }
   string.at = kept_;
+  if (D == 2) string.wide = kept_wide_;
   measure(string);
   return false;
+}
+
+void Puller::pull(String& string) {
+  const std::size_t n = string.bends();
+  for (std::size_t i = string.held; i < n; ++i)
+    string.at[i] = std::clamp(string.at[i], string.places[i]->low, string.places[i]->high);
+  string.length = measure(string);
+  if (n == string.held) return;
+  if (n == string.held + 1) {
+    pull_each(string);
+    string.length = measure(string);
+    return;
+  }
+  weighted_ = false;
+  for (std::size_t i = string.held; i < n; ++i) {
+    if (string.places[i]->is_plane) weighted_ = true;
+    if (string.slow(i) != string.slow(i + 1)) weighted_ = true;
+  }
+  for (std::size_t i = string.held; i < n; ++i)
+    if (string.places[i]->is_plane) return pull_by<2>(string);
+  pull_by<1>(string);
 }
 
 // Rows that meet in a vertex, their neighbours fixed: unfolded about them, straight across, or
@@ -166,42 +294,105 @@ bool Puller::is_kinked(const String& string) const {
   return false;
 }
 
-void Puller::pull(String& string) {
+// A leg that lies in the place at its free end has a kink where it has no length. Is the string
+// held there, and would it rather leave?
+bool Puller::is_at_kink(const String& string, bool start, bool& leaves) const {
+  constexpr double none = 1e-11;
+  const std::size_t n = string.bends(), leg = start ? string.held : n,
+                    next = start ? leg + 1 : n - 1;
+  if (lengths_[leg] > none) return false;
+  const Place& place = *string.places[start ? leg : n - 1];
+  const double pulls =
+      string.slow(next) * std::hypot(dot(legs_[next], place.along), dot(legs_[next], place.wide));
+  if (pulls <= string.slow(leg)) return true;
+  leaves = true;
+  return false;
+}
+
+// The share of a move at which a leg to the free end of which is in its place passes its kink.
+double Puller::before_kink(const String& string, bool start) const {
+  const std::size_t n = string.bends(), i = start ? string.held : n - 1, d = move_.size() / n;
+  const Place& place = *string.places[i];
+  const Point move = move_[d * i] * place.along + (d > 1 ? move_[d * i + 1] : 0) * place.wide;
+  const Point leg = start ? string.points[i] - string.corner(i) : string.points[i] - string.to;
+  const double toward = -dot(leg, move), square = dot(move, move);
+  constexpr double flat = 1e-12;
+  if (toward <= 0 || norm(off_place(place, start ? string.corner(i) : string.to)) > flat) return 1;
+  return std::min(1., toward / square);
+}
+
+template <std::size_t D>
+void Puller::pull_by(String& string) {
   // Newton's error is squared by each step, and the length's is the square of that of the bends:
   // once a step makes this share of a difference, it is the last.
   constexpr double last = 1e-9;
   constexpr double rounding = 1e-15;
-  constexpr int most = 24;
-  const std::size_t n = string.bends();
-  for (std::size_t i = string.held; i < n; ++i)
-    string.at[i] = std::clamp(string.at[i], string.places[i]->low, string.places[i]->high);
-  string.length = measure(string);
-  if (n == string.held) return;
-  if (n == string.held + 1) {
-    pull_each(string);
-    string.length = measure(string);
-    return;
-  }
+  const int most = weighted_ ? 60 : 24;
+  const double shortest = weighted_ ? 1e-5 : 1;
+  at_start_ = at_end_ = false;
+  int stalled = 0;
   for (int round = 0; round < most; ++round) {
-    differentiate(string);
-    const double slope = solve(string);
+    double share = 1;
+    if (weighted_) {
+      bool leaves = false;
+      at_start_ = is_at_kink(string, true, leaves);
+      at_end_ = is_at_kink(string, false, leaves);
+      if (leaves) {
+        pull_each(string);
+        string.length = measure(string);
+      }
+    }
+    differentiate<D>(string);
+    const double slope = solve<D>(string);
     const bool ends = -slope < last * string.length;
-    if (step(string, ends ? -rounding * string.length : -1e-4 * slope)) {
+    if (weighted_) share = std::min(before_kink(string, true), before_kink(string, false));
+    const bool kinked = share < 1;
+    const double least = shortest * share;
+    bool shorter = false;
+    for (; !shorter && share >= least; share /= 3) {
+      shorter = step<D>(string, share, ends ? -rounding * string.length : -1e-4 * share * slope);
+      if (ends) break;
+    }
+    if (shorter && !kinked) {
       if (!ends) continue;
-      if (!is_kinked(string)) return;
+      if (weighted_ || !is_kinked(string)) return;
     }
     // Too far, or over a corner where rows of edges meet.
     const double before = string.length;
-    kept_ = string.at;
-    pull_fans(string);
-    string.length = measure(string);
-    if (string.length < before * (1 - 10 * rounding)) continue;
-    string.at = kept_;
-    measure(string);
+    if (!weighted_) {
+      kept_ = string.at;
+      pull_fans(string);
+      string.length = measure(string);
+      if (string.length < before * (1 - 10 * rounding)) continue;
+      string.at = kept_;
+      measure(string);
+    }
     pull_each(string);
     string.length = measure(string);
+    // Two bends that meet are for who made the string to part or to join.
+    if (weighted_) {
+      constexpr double together = 1e-6;
+      for (std::size_t i = string.held + 1; i < string.bends(); ++i)
+        if (lengths_[i] < together) return;
+    }
+    if (shorter && weighted_) continue;
     if (!(string.length < before * (1 - 10 * rounding))) return;
+    // Each for itself gets on slowly, as where bends gather at a corner.
+    constexpr double slow = 1e-6;
+    if (weighted_ && !(string.length < before * (1 - slow)) && ++stalled > 2) return;
   }
+}
+
+bool is_held(const String& string, std::size_t n) {
+  const Place& p = *string.places[n];
+  if (p.is_plane) return false;
+  if (p.high <= p.low) return true;
+  const bool low = string.at[n] <= p.low, high = string.at[n] >= p.high;
+  if (!low && !high) return false;
+  const double slope =
+      string.slow(n) * dot(p.along, unit(string.corner(n + 1) - string.corner(n))) -
+      string.slow(n + 1) * dot(p.along, unit(string.corner(n + 2) - string.corner(n + 1)));
+  return low ? slope > outward : slope < -outward;
 }
 
 }  // namespace plexway::strings

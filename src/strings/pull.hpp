@@ -12,9 +12,11 @@ namespace plexway::strings {
 struct String {
   Point from, to;
   std::vector<const Place*> places;
-  std::vector<double> at;     ///< how far along each place: where a pull starts, and what it finds
-  std::vector<Point> points;  ///< there
-  double length = 0;
+  std::vector<double> at;    ///< how far along each place: where a pull starts, and what it finds
+  std::vector<double> wide;  ///< the same across planes; empty: there are none
+  std::vector<double> slowness;  ///< of legs; empty: all have 1
+  std::vector<Point> points;     ///< there
+  double length = 0;             ///< each leg times its slowness
   std::size_t held = 0;  ///< so many places that a pull leaves alone: their `at` is as it should be
   double held_length = 0;
 
@@ -23,34 +25,48 @@ struct String {
   [[nodiscard]] const Point& corner(std::size_t n) const {
     return n == 0 ? from : n > bends() ? to : points[n - 1];
   }
+  [[nodiscard]] double slow(std::size_t leg) const { return slowness.empty() ? 1 : slowness[leg]; }
   /// Of a string that was pulled, the first places shall stay as they are.
   void hold(std::size_t count) {
     held = count;
     held_length = 0;
-    for (std::size_t n = 0; n < count; ++n) held_length += norm(corner(n + 1) - corner(n));
+    for (std::size_t n = 0; n < count; ++n)
+      held_length += slow(n) * norm(corner(n + 1) - corner(n));
   }
 };
 
 /// Makes strings as short as they can be along their places. The length is convex in where they
-/// bend, and each bend knows its neighbours alone: Newton's method on a tridiagonal system, and
-/// where that goes too far, each bend for itself. Bends stay at the end of a place while the string
-/// presses them outward.
+/// bend, and each bend knows its neighbours alone: Newton's method on a block tridiagonal system,
+/// and where that goes too far, each bend for itself. Bends stay at the end of a place while the
+/// string presses them outward.
 class Puller {
  public:
   void pull(String& string);
 
  private:
   void pull_each(String& string) const;
-  double measure(String& string);  // points, legs, length
-  void differentiate(const String& string);
-  double solve(const String& string);
-  bool step(String& string, double least);
   void pull_fans(String& string);
   [[nodiscard]] bool is_kinked(const String& string) const;
+  double measure(String& string);  // points, legs, length
+  bool is_at_kink(const String& string, bool start, bool& leaves) const;
+  double before_kink(const String& string, bool start) const;
+  template <std::size_t D>
+  void pull_by(String& string);
+  template <std::size_t D>
+  void differentiate(const String& string);
+  template <std::size_t D>
+  double solve(const String& string);
+  template <std::size_t D>
+  bool step(String& string, double share, double least);
 
-  std::vector<Point> legs_;      // unit vectors
-  std::vector<double> lengths_;  // of legs
-  std::vector<double> gradient_, diagonal_, beside_, move_, kept_;
+  bool weighted_ = false;                   // media or planes, not bends in one solid alone
+  bool at_start_ = false, at_end_ = false;  // the first, the last of the places is at an end
+  std::vector<Point> legs_;                 // unit vectors
+  std::vector<double> lengths_;             // of legs
+  std::vector<double> gradient_, diagonal_, beside_, move_, kept_, kept_wide_;
 };
+
+/// Is a bend of a taut string held at the end of its place, and would go on past it?
+[[nodiscard]] bool is_held(const String& string, std::size_t n);
 
 }  // namespace plexway::strings

@@ -156,7 +156,7 @@ TEST_CASE("strings along wires and sheets in a solid, skins and sheets that stan
 TEST_CASE("strings over many planes are pulled to where Snell's law has them") {
   std::mt19937 random(3);
   const auto share = [&](double low, double high) { return samples::between(random, low, high); };
-  strings::MediaPuller puller;
+  strings::Puller puller;
   for (int k = 0; k < 2000; ++k) {
     const std::size_t n = 2 + random() % 8;
     samples::Layers layers;
@@ -172,7 +172,7 @@ TEST_CASE("strings over many planes are pulled to where Snell's law has them") {
       plane.is_plane = true;
       places.push_back(plane);
     }
-    strings::MediaString string;
+    strings::String string;
     const bool from_plane = random() % 2 == 0, to_plane = random() % 2 == 0;
     string.from = {0, 0, from_plane ? layers.z[0] : layers.z[0] - share(0, 1)};
     string.to = {share(0, 10), share(0, 3), to_plane ? z : z + share(0, 1)};
