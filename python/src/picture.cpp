@@ -22,6 +22,19 @@
 namespace plexway::python {
 namespace {
 
+// What is drawn; `value` has the distances.
+SceneContent content_of(const Domain& domain, const py::object& distance,
+                        std::vector<double>& value, const std::vector<PointSource>& sources,
+                        const py::list& paths) {
+  SceneContent content;
+  if (!distance.is_none()) value = numbers_of(distance, "distance");
+  content.distance = value;
+  for (const PointSource& source : sources)
+    content.sources.push_back(domain.shape().position(source));
+  for (const py::handle& path : paths) content.paths.push_back(points_of(path, "paths"));
+  return content;
+}
+
 #ifdef PLEXWAY_HAS_RENDER
 
 py::array_t<std::uint8_t> picture(const Domain& domain, const py::object& distance,
@@ -31,12 +44,7 @@ py::array_t<std::uint8_t> picture(const Domain& domain, const py::object& distan
                                   bool transparent, const std::string& title, bool clip) {
   support(Purpose::pictures, domain.shape()).require();
   std::vector<double> value;
-  if (!distance.is_none()) value = numbers_of(distance, "distance");
-  SceneContent content;
-  content.distance = value;
-  for (const PointSource& source : sources)
-    content.sources.push_back(domain.shape().position(source));
-  for (const py::handle& path : paths) content.paths.push_back(points_of(path, "paths"));
+  const SceneContent content = content_of(domain, distance, value, sources, paths);
   const ShapeScene scene(domain.open(), content);
   render::PictureOptions options;
   options.width = width;
@@ -73,12 +81,7 @@ void page(const Domain& domain, const std::filesystem::path& file, const py::obj
           const std::vector<PointSource>& sources, const py::list& paths, const std::string& title,
           const std::string& map) {
   std::vector<double> value;
-  if (!distance.is_none()) value = numbers_of(distance, "distance");
-  SceneContent content;
-  content.distance = value;
-  for (const PointSource& source : sources)
-    content.sources.push_back(domain.shape().position(source));
-  for (const py::handle& path : paths) content.paths.push_back(points_of(path, "paths"));
+  const SceneContent content = content_of(domain, distance, value, sources, paths);
   const py::gil_scoped_release free;
   io::Page page;
   fill_page(page, domain.open(), content);

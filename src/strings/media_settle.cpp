@@ -221,20 +221,10 @@ bool MediaSolver::lift_off_corner(Attempt& a, std::size_t i) {
   return true;
 }
 
-// Where a leg leads from a bend. Where rows meet in a vertex and the string bends there at both, it
-// has no length: along the other row.
+// Where a leg leads from a bend.
 Point MediaSolver::toward(const Attempt& a, std::size_t corner, std::size_t other, Index to) const {
-  const Point& at = a.string.corner(corner);
-  if (other > 0 && other <= a.doors.size()) {
-    const Place& row = *a.string.places[other - 1];
-    const Point leg = a.string.corner(other) - at;
-    const double t = a.string.at[other - 1];
-    if (row.low < row.high && dot(leg, leg) < unmoved * unmoved) {
-      if (t < row.low + unmoved) return row.along;
-      if (t > row.high - unmoved) return -1. * row.along;
-    }
-  }
-  return end_of_leg(a, other, corner, to) - at;
+  const auto row = a.string.row_from(corner, other);
+  return row ? *row : end_of_leg(a, other, corner, to) - a.string.corner(corner);
 }
 
 bool MediaSolver::drop_lifted(Attempt& a, std::size_t i, Index to) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "strings/place.hpp"
@@ -26,6 +27,19 @@ struct String {
     return n == 0 ? from : n > bends() ? to : points[n - 1];
   }
   [[nodiscard]] double slow(std::size_t leg) const { return slowness.empty() ? 1 : slowness[leg]; }
+  /// Where rows meet in a vertex and the string bends there at both, the leg from one to the other
+  /// has no length: it leads along the other row. Null for any other leg.
+  [[nodiscard]] std::optional<Point> row_from(std::size_t corner, std::size_t other) const {
+    if (other == 0 || other > bends()) return {};
+    constexpr double still = 1e-9;
+    const Place& row = *places[other - 1];
+    const Point leg = this->corner(other) - this->corner(corner);
+    const double t = at[other - 1];
+    if (!(row.low < row.high && dot(leg, leg) < still * still)) return {};
+    if (t < row.low + still) return row.along;
+    if (t > row.high - still) return -1. * row.along;
+    return {};
+  }
   /// Of a string that was pulled, the first places shall stay as they are.
   void hold(std::size_t count) {
     held = count;

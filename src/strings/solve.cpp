@@ -171,20 +171,10 @@ Point Solver::end_of_leg(const Attempt& a, std::size_t corner, std::size_t other
   return place.beside(t, space_->aside());
 }
 
-// Where a leg leads from a bend. Where rows meet in a vertex and the string bends there at both, it
-// has no length: along the other row.
+// Where a leg leads from a bend.
 Point Solver::toward(const Attempt& a, std::size_t corner, std::size_t other, Index to) const {
-  const Point& at = a.string.corner(corner);
-  if (other > 0 && other <= a.places.size()) {
-    const Place& row = *a.string.places[other - 1];
-    const Point leg = a.string.corner(other) - at;
-    const double t = a.string.at[other - 1];
-    if (row.low < row.high && dot(leg, leg) < still * still) {
-      if (t < row.low + still) return row.along;
-      if (t > row.high - still) return -1. * row.along;
-    }
-  }
-  return end_of_leg(a, other, corner, to) - at;
+  const auto row = a.string.row_from(corner, other);
+  return row ? *row : end_of_leg(a, other, corner, to) - a.string.corner(corner);
 }
 
 bool Solver::drop_lifted(Attempt& a, Index to) {
