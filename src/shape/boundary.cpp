@@ -128,7 +128,7 @@ std::vector<char> kinds_of(const io::Tets& solid) {
   std::vector<char> used(solid.positions.size(), 0);
   for (const auto& tet : solid.tets)
     for (const Index v : tet) used[v] = 1;
-  for (const Index v : rim_vertices(cells_of(solid.tets))) used[v] = 2;
+  for (const Index v : rim_vertices(io::cells_of(solid.tets))) used[v] = 2;
   return used;
 }
 

@@ -154,7 +154,7 @@ std::span<const std::array<double, 3>> KeptShape::positions() const {
 
 std::vector<io::Cells> KeptShape::cells() const {
   std::vector<io::Cells> found;
-  each_list(lent_, [&](const auto& list) { found.push_back(cells_of(list)); });
+  each_list(lent_, [&](const auto& list) { found.push_back(io::cells_of(list)); });
   return found;
 }
 

@@ -10,7 +10,7 @@
 #include <plexway/shape/support.hpp>
 
 #include "file/new_file.hpp"
-#include "io/field/field_part.hpp"
+#include "io/field/field_formats.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/shape_state.hpp"
 
@@ -58,7 +58,7 @@ void write_part(const SurfacePart& surface, const std::filesystem::path& file,
                 std::span<const double> distance, std::span<const std::int32_t> label,
                 std::span<const double> error, const PartOf& part,
                 std::span<const std::size_t> parts) {
-  const io::Cells cells = io::cells_of<3>(5, surface.triangle);
+  const io::Cells cells = io::cells_of(surface.triangle);
   const io::Field field = {
       surface.vertex.size(), surface.position, {&cells, 1}, distance, label, surface.vertex, error};
   std::optional<io::FieldPart> own;

@@ -18,9 +18,9 @@ struct PartOf {
 };
 
 /// The field of a surface, a solid or a cloud in several files and one that names them, a .pvtu
-/// (io/field/field_part.hpp): all processes call it, each writes its part, and parts are not named
-/// until all are in place. Arguments as AnyShape::write_field has them. Throws UsageError for other
-/// shapes, Error "cannot write FILE: reason".
+/// (io/field/field_formats.hpp): all processes call it, each writes its part, and parts are not
+/// named until all are in place. Arguments as AnyShape::write_field has them. Throws UsageError for
+/// other shapes, Error "cannot write FILE: reason".
 void write_partitioned(const AnyShape& shape, const std::filesystem::path& file,
                        std::span<const double> distance, std::span<const std::int32_t> label,
                        std::span<const double> error, const PartOf& part);

@@ -59,13 +59,7 @@ void each_list(Data& data, const Use& use) {
       data);
 }
 
-/// Rows of `N` corners as cells, and cells as such rows.
-template <class List>
-[[nodiscard]] io::Cells cells_of(const List& list) {
-  constexpr std::size_t corners = std::tuple_size_v<typename List::value_type>;
-  constexpr std::array<std::uint8_t, 5> types = {0, 1, 3, 5, 10};
-  return io::cells_of<corners>(types[corners], {list.data(), list.size()});
-}
+/// Cells as rows of `N` corners; io::cells_of is the way back.
 template <std::size_t N>
 [[nodiscard]] std::span<const std::array<Index, N>> rows_of(const io::Cells& cells) {
   return {reinterpret_cast<const std::array<Index, N>*>(cells.connectivity.data()), cells.count()};
