@@ -28,12 +28,6 @@ void write_row(OutputFile& out, std::span<const double> numbers, char between) {
   }
 }
 
-void start_ply(OutputFile& out, std::size_t vertices) {
-  out.write("ply\nformat ascii 1.0\nelement vertex ");
-  out.write_text(vertices);
-  out.write("\nproperty double x\nproperty double y\nproperty double z\n");
-}
-
 }  // namespace
 
 std::span<const std::string_view> point_file_extensions() {
@@ -43,11 +37,6 @@ std::span<const std::string_view> point_file_extensions() {
 
 std::span<const std::string_view> matrix_file_extensions() {
   static constexpr std::array<std::string_view, 2> known = {".csv", ".npy"};
-  return known;
-}
-
-std::span<const std::string_view> surface_file_extensions() {
-  static constexpr std::array<std::string_view, 3> known = {".obj", ".off", ".ply"};
   return known;
 }
 
@@ -68,7 +57,8 @@ void write_points(const std::filesystem::path& out, const AnyShape& domain,
   } else if (extension == ".npy") {
     file.write(io::npy_header("'<f8'", std::to_string(points.size()) + ", 3"));
   } else if (extension == ".ply") {
-    start_ply(file, points.size());
+    file.write("ply\nformat ascii 1.0\nelement vertex " + std::to_string(points.size()) +
+               "\nproperty double x\nproperty double y\nproperty double z\n");
     if (!value.empty()) {
       file.write("property double ");
       file.write(value_name);
@@ -123,41 +113,6 @@ void write_matrix(const std::filesystem::path& out, std::size_t n, std::span<con
     }
   } else {
     unknown(out, matrix_file_extensions());
-  }
-  file.commit();
-}
-
-void write_surface(const std::filesystem::path& out, std::span<const std::array<double, 3>> points,
-                   std::span<const std::array<std::uint32_t, 3>> triangles) {
-  const std::string extension = io::lower_extension(out);
-  OutputFile file(out);
-  if (extension == ".off") {
-    file.write("OFF\n");
-    file.write_text(points.size());
-    file.write(" ");
-    file.write_text(triangles.size());
-    file.write(" 0\n");
-  } else if (extension == ".ply") {
-    start_ply(file, points.size());
-    file.write("element face ");
-    file.write_text(triangles.size());
-    file.write("\nproperty list uchar int vertex_indices\nend_header\n");
-  } else if (extension != ".obj") {
-    unknown(out, surface_file_extensions());
-  }
-  for (const auto& p : points) {
-    if (extension == ".obj") file.write("v ");
-    write_row(file, p, ' ');
-    file.write("\n");
-  }
-  const bool obj = extension == ".obj";
-  for (const auto& t : triangles) {
-    file.write(obj ? "f" : "3");
-    for (const auto v : t) {
-      file.write(" ");
-      file.write_text(v + (obj ? 1 : 0));
-    }
-    file.write("\n");
   }
   file.commit();
 }

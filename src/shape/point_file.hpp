@@ -24,9 +24,4 @@ std::span<const std::string_view> point_file_extensions();
 void write_matrix(const std::filesystem::path& out, std::size_t n, std::span<const double> values);
 std::span<const std::string_view> matrix_file_extensions();
 
-/// A triangle surface as .obj, .off or .ply.
-void write_surface(const std::filesystem::path& out, std::span<const std::array<double, 3>> points,
-                   std::span<const std::array<std::uint32_t, 3>> triangles);
-std::span<const std::string_view> surface_file_extensions();
-
 }  // namespace plexway

@@ -15,7 +15,7 @@ std::string point_text(const std::array<double, 3>& point) {
 
 }  // namespace
 
-void add_file_report(const AnyShape& domain, Json& json) {
+void add_file_report(const AnyShape& domain, Json& json, Table& table) {
   const io::FileReport& report = domain.report();
   json["split_polygons"] = report.split_polygons;
   json["split_cells"] = report.split_cells;
@@ -23,10 +23,6 @@ void add_file_report(const AnyShape& domain, Json& json) {
   json["merged_vertices"] = domain.merged_count();
   json["passed_over"] = Json::object();
   for (const auto& [what, count] : report.passed_over) json["passed_over"][what] = count;
-}
-
-void add_file_report(const AnyShape& domain, Table& table) {
-  const io::FileReport& report = domain.report();
   std::string split;
   if (report.split_polygons > 0)
     split = counted(report.split_polygons, "polygons") + " into triangles";

@@ -39,12 +39,9 @@ InfoReport info_of(const AnyShape& domain, const CloudShape& cloud);
 InfoReport info_of(const AnyShape& domain, const SimplexShape& simplices);
 InfoReport info_of(const AnyShape& domain, const MixedShape& mixed);
 
-///@{
 /// What the file's reader did besides taking what it has, and simplices that are left out:
 /// "split_polygons", "split_cells", "dropped_simplices" and "passed_over"; rows of what there is.
-void add_file_report(const AnyShape& domain, Json& json);
-void add_file_report(const AnyShape& domain, Table& table);
-///@}
+void add_file_report(const AnyShape& domain, Json& json, Table& table);
 
 /// Executors and devices that can run solves here.
 InfoReport info_of_devices();

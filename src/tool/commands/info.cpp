@@ -33,12 +33,11 @@ void run_info(const InfoCommand& command) {
       std::visit([&](const auto& shape) { return info_of(domain, shape); }, domain.data());
   progress.clear();
   Json json = {{"input", domain.file().string()}, {"kind", domain.kind_name()}};
-  add_file_report(domain, json);
-  json.update(report.json);
-  for (const std::string& note : domain.report().notes) json["warnings"].push_back(note);
   Table table;
   table.add("input", domain.file().string());
-  add_file_report(domain, table);
+  add_file_report(domain, json, table);
+  json.update(report.json);
+  for (const std::string& note : domain.report().notes) json["warnings"].push_back(note);
   table.add(report.table);
   if (json.contains("warnings"))
     for (const Json& note : json["warnings"]) table.add("note", note.get<std::string>());

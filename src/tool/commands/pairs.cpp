@@ -15,7 +15,7 @@
 #include "tool/commands/pairs_matrix.hpp"
 #include "tool/commands/sampling_command.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_report.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -57,23 +57,20 @@ void run_pairs(const PairsCommand& pairs) {
   DistanceMatrix matrix;
   Notes notes = with_sampled(domain, precision, [&](const auto& complex, const auto& numbers) {
     phases.end("build");
-    const auto tell = [&](double share) {
-      progress.done(share);
-      return true;
-    };
-    matrix = distance_matrix(Serial{}, complex, numbers.inside(points), tell, accuracy);
+    matrix = distance_matrix(Serial{}, complex, numbers.inside(points), progress.share_callback(),
+                             accuracy);
     phases.end("solve");
   });
   if (!command.out.empty()) write_matrix(command.out, matrix.size, matrix.distance);
   phases.end("write");
   progress.clear();
 
-  PointSummary summary(command, domain, points.size());
+  Summary summary = points_summary(command, domain, "points", points.size());
   add_accuracy(domain.kind(), matrix.accuracy, matrix.statistics, summary.json);
   summary.json["asymmetry"] = matrix.asymmetry;
   summary.table.add("there and back",
                     "differ by " + short_number(matrix.asymmetry) + " of the shorter at most");
-  for (std::string& far : far_notes(domain, arguments, points)) notes.add(std::move(far));
+  notes.add(far_notes(domain, arguments, points));
   notes.add(work_warnings({.statistics = matrix.statistics,
                            .accuracy = matrix.accuracy,
                            .has_windows = has_accuracies(domain.kind()),
@@ -84,7 +81,7 @@ void run_pairs(const PairsCommand& pairs) {
     notes.add("distances between some points, there and back, differ by " +
               short_number(100 * matrix.asymmetry) +
               " %, so one of them is off by half of that or more: 'plexway path' is more exact");
-  summary.finish(command, matrix.statistics, phases, notes);
+  finish(summary, command, matrix.statistics, phases, notes);
 }
 
 }  // namespace

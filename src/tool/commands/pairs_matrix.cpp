@@ -22,7 +22,7 @@
 #include "shape/pairs/pair_tables.hpp"
 #include "tool/app.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_report.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 
@@ -154,15 +154,11 @@ void take_rows(const MatrixCommand& command, const Domain& domain, ProgressLine&
 
 void print(const MatrixCommand& command, const Domain& domain, const PairFiles& files,
            const PairFilesReport& report) {
-  Notes notes;
-  notes.add(report.warnings);
-  Json json;
-  Table table;
-  json["input"] = command.input;
-  json["kind"] = domain.kind_name();
+  Summary summary(command.input, domain.kind_name());
+  Json& json = summary.json;
+  Table& table = summary.table;
   json["rows"] = files.rows.size();
   json["columns"] = files.columns.size();
-  table.add("input", command.input);
   table.add("matrix",
             std::to_string(files.rows.size()) + " x " + std::to_string(files.columns.size()));
   if (command.estimate) {
@@ -180,18 +176,13 @@ void print(const MatrixCommand& command, const Domain& domain, const PairFiles& 
     if (counts) json["expansions"] = report.solved.statistics.expansions;
     if (report.solved.statistics.windows_gave_up > 0)
       json["windows_gave_up"] = report.solved.statistics.windows_gave_up;
-    json["seconds"]["load"] = domain.load_seconds();
-    if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
-    json["seconds"]["solve"] = report.seconds;
+    summary.took_loading(domain);
+    summary.took("solve", report.seconds);
     table.add("work", counted(report.solved.rows, "rows") + " solved" +
                           (counts && command.verbose
                                ? ", " + counted(report.solved.statistics.expansions, "expansions")
                                : ""));
-    table.add("time", short_time(report.seconds));
-    if (files.sparse()) {
-      json["entries"] = report.entries;
-      table.add("entries", std::to_string(report.entries));
-    }
+    if (files.sparse()) summary.add("entries", report.entries, std::to_string(report.entries));
     if (report.asymmetry) {
       const io::Asymmetry& ways = *report.asymmetry;
       json["asymmetry"] = {{"largest", ways.largest},
@@ -203,14 +194,12 @@ void print(const MatrixCommand& command, const Domain& domain, const PairFiles& 
                                       (command.symmetric ? "; the shorter counts for both" : ""));
     }
     if (report.statistics) add_statistics(*report.statistics, json, table);
-    add_written(table, {command.out, command.stats, command.histogram});
   }
-  notes.tell(json);
-  if (command.json)
-    write_output(json_text(json));
-  else if (!command.quiet)
-    write_output(table.text());
-  flush_output();
+  Notes notes;
+  notes.add(report.warnings);
+  std::vector<std::string> written;
+  if (!command.estimate) written = {command.out, command.stats, command.histogram};
+  summary.print(command, written, notes);
   notes.say(command.quiet);
 }
 
