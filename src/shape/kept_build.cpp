@@ -9,7 +9,7 @@
 #include <plexway/error.hpp>
 #include <plexway/shape/support.hpp>
 
-#include "io/extension.hpp"
+#include "io/names.hpp"
 #include "shape/kept_build.hpp"
 #include "shape/shape_state.hpp"
 

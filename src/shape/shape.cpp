@@ -11,11 +11,10 @@
 #include <plexway/shape/support.hpp>
 
 #include "complexes/common/closest_point.hpp"
-#include "io/extension.hpp"
+#include "io/names.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/fill.hpp"
 #include "shape/kept_build.hpp"
-#include "shape/merge.hpp"
 #include "shape/modules/module.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/words.hpp"

@@ -10,10 +10,10 @@
 
 #include <plexway/error.hpp>
 
-#include "colour_map.hpp"
-#include "field_formats.hpp"
-#include "io/extension.hpp"
-#include "npy_header.hpp"
+#include "io/field/colours.hpp"
+#include "io/field/field_formats.hpp"
+#include "io/matrix/npy.hpp"
+#include "io/names.hpp"
 
 namespace plexway::io {
 

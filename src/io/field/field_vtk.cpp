@@ -11,9 +11,8 @@
 
 #include <plexway/error.hpp>
 
-#include "field_formats.hpp"
-#include "io/extension.hpp"
-#include "io/quote.hpp"
+#include "io/field/field_formats.hpp"
+#include "io/names.hpp"
 
 namespace plexway::io {
 

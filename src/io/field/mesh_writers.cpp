@@ -12,9 +12,9 @@
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 
-#include "field_formats.hpp"
-#include "io/bytes.hpp"
-#include "io/extension.hpp"
+#include "io/field/field_formats.hpp"
+#include "io/names.hpp"
+#include "io/numbers.hpp"
 
 namespace plexway::io {
 namespace {

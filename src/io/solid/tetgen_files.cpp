@@ -5,10 +5,10 @@
 #include <plexway/error.hpp>
 #include <plexway/io/tets.hpp>
 
-#include "cells.hpp"
-#include "io/extension.hpp"
 #include "io/file_bytes.hpp"
+#include "io/names.hpp"
 #include "io/readers.hpp"
+#include "io/solid/cells.hpp"
 #include "io/text_scanner.hpp"
 
 namespace plexway::io {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/output_place.hpp"
+#include "io/names.hpp"
 
 namespace plexway {
 

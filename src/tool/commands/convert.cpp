@@ -3,7 +3,7 @@
 
 #include "shape/convert.hpp"
 #include "shape/info/report.hpp"
-#include "tool/commands/commands.hpp"
+#include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"

@@ -10,8 +10,8 @@
 #include <plexway/solve.hpp>
 
 #include "shape/arguments/arguments.hpp"
-#include "shape/point_file.hpp"
-#include "tool/commands/commands.hpp"
+#include "shape/result_files.hpp"
+#include "tool/app.hpp"
 #include "tool/commands/sampling_command.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"

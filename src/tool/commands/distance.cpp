@@ -19,14 +19,13 @@
 #include "shape/info/info_report.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/level_sets.hpp"
-#include "shape/partitioned_field.hpp"
+#include "shape/result_files.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/warnings/field_warnings.hpp"
 #include "shape/warnings/sentences.hpp"
 #include "shape/words.hpp"
-#include "tool/commands/commands.hpp"
+#include "tool/app.hpp"
 #include "tool/commands/distance_command.hpp"
-#include "tool/exit_codes.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
@@ -82,6 +81,7 @@ Summary summary_of(const DistanceCommand& command, const Domain& domain, const A
   for (std::size_t i = 0; i < sources.size(); ++i)
     table.add(sources.size() == 1 ? "source" : "source " + std::to_string(i),
               describe_source_set(domain, arguments[i], sources[i]));
+  add_metric(command.metric, lengths, solver.refracting_edges(), summary);
   if (field.triangulation.done != Triangulation::input)
     table.add("triangles", describe(field.triangulation));
   summary.took_loading(domain);
@@ -105,7 +105,6 @@ Summary summary_of(const DistanceCommand& command, const Domain& domain, const A
   json["precision"] = command.solve.precision == "float" ? "float" : "double";
   add_accuracy(domain.kind(), field.accuracy(), field.statistics(), json);
   if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(field.triangulation);
-  add_metric(command.metric, lengths, solver.refracting_edges(), summary);
   add_file_report(domain, json, table);
   if (!domain.level_set_note().empty())
     summary.add("voxels", domain.level_set_note(), domain.level_set_note());

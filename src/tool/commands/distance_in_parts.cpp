@@ -22,11 +22,11 @@
 #include "shape/arguments/arguments.hpp"
 #include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"
-#include "shape/partitioned_field.hpp"
+#include "shape/result_files.hpp"
 #include "shape/stopwatch.hpp"
 #include "shape/warnings/field_warnings.hpp"
+#include "tool/app.hpp"
 #include "tool/commands/distance_command.hpp"
-#include "tool/exit_codes.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 

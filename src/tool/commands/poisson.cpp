@@ -8,8 +8,8 @@
 #include <plexway/sampling/poisson_disk.hpp>
 
 #include "io/number_rows.hpp"
-#include "shape/point_file.hpp"
-#include "tool/commands/commands.hpp"
+#include "shape/result_files.hpp"
+#include "tool/app.hpp"
 #include "tool/commands/sampling_command.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"

@@ -10,7 +10,7 @@
 #include <plexway/error.hpp>
 
 #include "shape/info/report.hpp"
-#include "tool/commands/commands.hpp"
+#include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/options/solve_options.hpp"
 #include "tool/report/console.hpp"

@@ -9,7 +9,7 @@
 #include "shape/fill.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/info/report.hpp"
-#include "tool/commands/commands.hpp"
+#include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"

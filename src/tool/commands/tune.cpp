@@ -5,7 +5,7 @@
 #include <plexway/error.hpp>
 
 #include "shape/tuning/tuning_run.hpp"
-#include "tool/commands/commands.hpp"
+#include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"

@@ -5,8 +5,8 @@
 #include <plexway/io/page.hpp>
 #include <plexway/shape/support.hpp>
 
-#include "io/extension.hpp"
-#include "io/field/colour_map.hpp"
+#include "io/field/colours.hpp"
+#include "io/names.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/level_sets.hpp"
 #include "shape/scene.hpp"

@@ -11,7 +11,7 @@
 #include <plexway/shape/warnings.hpp>
 #include <plexway/solve/distance_field.hpp>
 
-#include "io/output_place.hpp"
+#include "io/names.hpp"
 #include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/stopwatch.hpp"

@@ -1,4 +1,4 @@
-#include "stored_zip.hpp"
+#include "io/matrix/npy.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
-#include "io/output_place.hpp"
+#include "io/names.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <system_error>
 #include <vector>
@@ -9,10 +10,94 @@
 
 #include "file/new_file.hpp"
 #include "file/standard_output.hpp"
-#include "io/did_you_mean.hpp"
-#include "io/extension.hpp"
 
 namespace plexway::io {
+
+std::string lower_extension(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  if (const auto format = file::format_on_standard_output(name); !format.empty())
+    return std::string(1, '.').append(format);
+  std::string extension = file.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
+  return extension;
+}
+
+std::string unknown_extension(const std::filesystem::path& file,
+                              std::span<const std::string_view> known) {
+  const bool stream = !file::format_on_standard_output(file.string()).empty();
+  const std::string extension = stream ? lower_extension(file) : file.extension().string();
+  std::string message = file.string() + ": ";
+  message += extension.empty() ? "no extension" : "unknown extension " + quote(extension);
+  message += did_you_mean(extension, known);
+  message += message.ends_with('?') ? " known are" : "; known are";
+  for (const auto name : known) message.append(" ").append(name);
+  return message;
+}
+
+InputName::InputName(const std::filesystem::path& given)
+    : file(given), extension(lower_extension(given)) {
+  std::error_code ignored;
+  if (std::filesystem::exists(given, ignored)) return;
+  const std::string name = given.string();
+  // Of one letter it would be a drive.
+  if (const auto colon = name.find(':'); colon != name.npos && colon >= 2 && colon <= 8) {
+    const bool is_format =
+        std::all_of(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(colon),
+                    [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); });
+    if (is_format && colon + 1 < name.size()) {
+      extension.assign(1, '.').append(name, 0, colon);
+      file = name.substr(colon + 1);
+    }
+  }
+  standard_input = file == "-" && !std::filesystem::exists(file, ignored);
+}
+
+namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; }
+
+// Letters to change, add, drop or swap with the next: the restricted Damerau-Levenshtein distance.
+std::size_t slips_between(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    next[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      next[j] = std::min({row[j - 1] + (same ? 0 : 1), row[j] + 1, next[j - 1] + 1});
+      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) &&
+          lower(a[i - 2]) == lower(b[j - 1]))
+        next[j] = std::min(next[j], before[j - 2] + 1);
+    }
+    before.swap(row);
+    row.swap(next);
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> known) {
+  constexpr std::size_t longest = 64;
+  if (word.size() > longest) return "";
+  const auto letters = [](std::string_view of) {
+    return static_cast<std::size_t>(
+        std::count_if(of.begin(), of.end(), [](char c) { return c != '-' && c != '.'; }));
+  };
+  std::string_view best;
+  std::size_t least = std::max<std::size_t>(letters(word) / 3, 1) + 1;
+  for (const std::string_view one : known) {
+    if (one.size() > longest || letters(one) < 2) continue;
+    const std::size_t slips = slips_between(word, one);
+    if (slips >= least || slips >= letters(one)) continue;
+    least = slips;
+    best = one;
+  }
+  if (best.empty() || letters(word) == 0) return "";
+  return std::string("; did you mean '").append(best).append("'?");
+}
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -3,9 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
-#include <plexway/render/image.hpp>
+#include <plexway/render/picture.hpp>
 
 namespace plexway::render {
 
@@ -20,5 +21,8 @@ struct Indexed {
 /// each colour to the mean of its pixels, a few times. Always the same for the same image.
 /// Cost: different colours times `colours`.
 Indexed with_few_colours(const Image& image, std::size_t colours);
+
+/// A PNG as write_png writes it. Throws as that, but for the system's errors.
+std::string png_bytes(const Image& image, std::size_t colours = 0);
 
 }  // namespace plexway::render
