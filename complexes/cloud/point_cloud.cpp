@@ -11,9 +11,8 @@
 
 #include "complexes/cloud/cloud_bridges.hpp"
 #include "complexes/cloud/sheet_lengths.hpp"
-#include "complexes/cloud/tangent_lengths.hpp"
+#include "complexes/cloud/sheet_wedges.hpp"
 #include "complexes/cloud/umbrella.hpp"
-#include "complexes/cloud/umbrella_sheet.hpp"
 #include "complexes/common/fill_rows.hpp"
 #include "complexes/common/nearby.hpp"
 #include "complexes/surface/gluing.hpp"

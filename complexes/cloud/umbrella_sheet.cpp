@@ -1,4 +1,4 @@
-#include "complexes/cloud/umbrella_sheet.hpp"
+#include "complexes/cloud/umbrella.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,8 @@
 #include <vector>
 
 #include <plexway/common/blocks.hpp>
+
+#include "complexes/cloud/sheet_wedges.hpp"
 
 namespace plexway {
 namespace {

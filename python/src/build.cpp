@@ -11,7 +11,7 @@
 #include <plexway/error.hpp>
 #include <plexway/io/formats.hpp>
 #include <plexway/io/labels.hpp>
-#include <plexway/shape/mask_text.hpp>
+#include <plexway/shape/open_simplices.hpp>
 
 #include "arrays.hpp"
 #include "domain.hpp"
@@ -104,7 +104,7 @@ struct BuildArguments {
   py::object progress;  // None or a function
 };
 
-// None; a text (shape/mask_text.hpp); truth values, which are left of the vertices or the
+// None; a text (shape/open_simplices.hpp); truth values, which are left of the vertices or the
 // simplices; or those of both that are closed.
 std::shared_ptr<const Mask> mask_of(const py::object& given, const AnyShape& shape) {
   if (given.is_none()) return nullptr;

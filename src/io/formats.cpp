@@ -1,16 +1,15 @@
-#include <plexway/io/formats.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 
 #include <plexway/error.hpp>
+#include <plexway/io/formats.hpp>
+#include <plexway/io/labels.hpp>
 
-#include "did_you_mean.hpp"
+#include "io/file_bytes.hpp"
+#include "io/names.hpp"
+#include "io/readers.hpp"
 #include "io/solid/cells.hpp"
-#include "opened_file.hpp"
-#include "quote.hpp"
-#include "readers.hpp"
 
 namespace plexway::io {
 namespace {
@@ -312,6 +311,18 @@ Edges read_edges(const std::filesystem::path& path) {
   const Row& row = row_of(file);
   return row.reader == FileReader::edges ? parse_edge_list(file.bytes(), file.name())
                                          : edges_of(cells_of(file, row), file.name());
+}
+
+Regions read_regions(const std::filesystem::path& path) {
+  const OpenedFile file(path);
+  const std::string& extension = file.extension();
+  const auto parse = extension == ".msh"   ? parse_gmsh_regions
+                     : extension == ".vtu" ? parse_vtu_regions
+                     : extension == ".vtk" ? parse_vtk_regions
+                                           : nullptr;
+  if (parse == nullptr)
+    throw InputError(file.name() + ": regions are read from .msh, .vtu and .vtk");
+  return parse(file.bytes(), file.name());
 }
 
 }  // namespace plexway::io

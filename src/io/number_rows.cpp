@@ -1,4 +1,4 @@
-#include "number_rows.hpp"
+#include "io/number_rows.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -11,8 +11,8 @@
 #include <plexway/error.hpp>
 
 #include "io/file_bytes.hpp"
-#include "io/quote.hpp"
-#include "text_scanner.hpp"
+#include "io/names.hpp"
+#include "io/text_scanner.hpp"
 
 namespace plexway::io {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "bytes.hpp"
 #include "file/new_file.hpp"
+#include "io/numbers.hpp"
 
 namespace plexway::io {
 
@@ -50,13 +50,25 @@ class OutputFile {
   }
 
   /// Hands all to the system: what is left to do can hardly fail.
-  void flush();
+  void flush() {
+    const std::size_t bytes = used_;
+    used_ = 0;
+    if (const int failed = file_.write(buffer_.data(), bytes); failed != 0) file_.refuse(failed);
+  }
 
   /// Flushes, closes, checks, and puts the file in its place.
-  void commit();
+  void commit() {
+    flush();
+    file_.commit();
+  }
 
  private:
-  void write_through(std::string_view bytes);
+  void write_through(std::string_view bytes) {
+    flush();
+    if (bytes.size() < buffer_.size()) return write(bytes);
+    if (const int failed = file_.write(bytes.data(), bytes.size()); failed != 0)
+      file_.refuse(failed);
+  }
 
   file::NewFile file_;
   std::string buffer_;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <plexway/io/edges.hpp>
 #include <plexway/io/mixed.hpp>
@@ -33,5 +35,13 @@ Mixed parse_gltf_files(std::string_view bytes, std::string_view name, const Gltf
 Tets read_node_ele(const std::filesystem::path& file);
 /// Throws NotBuiltError for a .pcd, which another component reads and writes.
 void refuse_pcd(std::string_view extension, const std::string& name);
+
+/// The numbers in the colour table that an annotation of FreeSurfer (.annot) gives its vertices; -1
+/// for a colour that the table has not. Throws InputError "FILE: cause".
+[[nodiscard]] std::vector<std::int64_t> read_freesurfer_annotation(
+    const std::filesystem::path& file);
+/// The same of bytes; `name` is for messages.
+[[nodiscard]] std::vector<std::int64_t> parse_freesurfer_annotation(std::string_view bytes,
+                                                                    std::string_view name);
 
 }  // namespace plexway::io

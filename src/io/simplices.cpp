@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "file_bytes.hpp"
-#include "text_scanner.hpp"
+#include "io/file_bytes.hpp"
+#include "io/text_scanner.hpp"
 
 namespace plexway::io {
 namespace {

@@ -12,7 +12,7 @@
 
 #include <plexway/error.hpp>
 
-#include "quote.hpp"
+#include "io/names.hpp"
 
 namespace plexway::io {
 

@@ -5,7 +5,7 @@
 
 #include <plexway/render/picture.hpp>
 
-#include "draw_list.hpp"
+#include "render/draw_list.hpp"
 
 namespace plexway::render {
 

@@ -1,11 +1,11 @@
-#include "canvas.hpp"
+#include "render/canvas.hpp"
 
 #include <algorithm>
 #include <string>
 
 #include <plexway/error.hpp>
 
-#include "device.hpp"
+#include "render/device.hpp"
 
 namespace plexway::render {
 namespace {

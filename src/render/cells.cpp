@@ -1,10 +1,10 @@
-#include "cells.hpp"
+#include "render/cells.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
-#include "io/field/colour_map.hpp"
+#include "io/field/colours.hpp"
 
 namespace plexway::render {
 namespace {

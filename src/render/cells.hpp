@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "draw_list.hpp"
+#include "render/draw_list.hpp"
 
 namespace plexway::render {
 

@@ -1,4 +1,4 @@
-#include "composition.hpp"
+#include "render/composition.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,9 @@
 #include <plexway/error.hpp>
 #include <plexway/render/picture.hpp>
 
-#include "camera.hpp"
-#include "io/field/colour_map.hpp"
-#include "io/field/ticks.hpp"
-#include "rounds.hpp"
-#include "skins.hpp"
+#include "io/field/colours.hpp"
+#include "render/camera.hpp"
+#include "render/skins.hpp"
 
 namespace plexway::render {
 

@@ -5,9 +5,9 @@
 
 #include <plexway/render/picture.hpp>
 
-#include "canvas.hpp"
-#include "legend.hpp"
-#include "skins.hpp"
+#include "render/canvas.hpp"
+#include "render/legend.hpp"
+#include "render/skins.hpp"
 
 namespace plexway::render {
 

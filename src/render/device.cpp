@@ -1,4 +1,4 @@
-#include "device.hpp"
+#include "render/device.hpp"
 
 #include <EGL/egl.h>
 
@@ -7,7 +7,7 @@
 
 #include <plexway/error.hpp>
 
-#include "shader_text.hpp"
+#include "render/shader_text.hpp"
 
 namespace plexway::render {
 namespace {

@@ -1,8 +1,12 @@
-#include "finish.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include <plexway/render/picture.hpp>
+
+#include "render/canvas.hpp"
+#include "render/composition.hpp"
+#include "render/draw_list.hpp"
 
 namespace plexway::render {
 namespace {
@@ -84,6 +88,16 @@ Image reduced(const Drawn& drawn) {
                 ? 255
                 : static_cast<std::uint8_t>(std::min(255u, (255 * sum[c] + sum[3] / 2) / sum[3]));
     }
+  return image;
+}
+
+Image picture(const Scene& scene, const PictureOptions& options) {
+  const Composition made = compose(scene, options);
+  Drawn drawn = draw(made.batches, options.width, options.height, made.style);
+  shade_hollows(drawn, made.style.camera);
+  Image image = reduced(drawn);
+  ImageSheet sheet(image);
+  if (options.legend) draw_legend(sheet, made.legend);
   return image;
 }
 

@@ -1,9 +1,9 @@
-#include "legend.hpp"
+#include "render/legend.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "io/field/ticks.hpp"
+#include "io/field/colours.hpp"
 
 namespace plexway::render {
 namespace {

@@ -1,4 +1,4 @@
-#include "sight.hpp"
+#include "render/sight.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "canvas.hpp"
-#include "drawing.hpp"
+#include "render/canvas.hpp"
+#include "render/draw_list.hpp"
 
 namespace plexway::render {
 

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "cells.hpp"
-#include "draw_list.hpp"
+#include <plexway/render/picture.hpp>
+
+#include "render/cells.hpp"
+#include "render/draw_list.hpp"
 
 namespace plexway::render {
 
@@ -44,5 +47,27 @@ void add_cap(Batch& batch, const Part& part, const Cells* cells, const Making& m
 
 /// Where the value, linear in each tetrahedron, is `iso`.
 void add_isosurface(Batch& batch, const Part& part, double iso, const Making& making);
+
+/// A ball. `rings` from pole to pole; twice as many around.
+void add_ball(Batch& batch, const Vertex& centre, double radius, std::size_t rings);
+
+/// A flat ring around a place, facing the camera: where a ball is that something hides.
+void add_ring(std::vector<Corner>& corners, const Vertex& centre, double inner, double outer,
+              const Point& toward);
+
+/// A tube along a polyline, closed by balls at its ends and at sharp bends.
+void add_tube(Batch& batch, std::span<const Vertex> line, double radius, std::size_t sides);
+
+/// The edges of a part as tubes with balls where they meet; thinner where edges are short.
+void add_wires(Batch& batch, const Part& part, const Making& making);
+
+/// The points of a part as discs, the rounder the larger they are, wide enough to touch their
+/// neighbours: along the normals where there are some, else as balls seen from the camera.
+void add_discs(Batch& batch, const Part& part, const Making& making);
+
+/// How far each point's fourth nearest other place is, at most twice and at least half of what is
+/// usual: how large the discs are that look like a surface. 0.1 each where all are at one place.
+/// Wherever points are crowded or lonely, the cost is n log n.
+[[nodiscard]] std::vector<double> spacings(std::span<const Point> points);
 
 }  // namespace plexway::render

@@ -1,4 +1,4 @@
-#include "stroke_font.hpp"
+#include "render/legend.hpp"
 
 #include <algorithm>
 #include <cmath>

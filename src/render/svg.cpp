@@ -11,14 +11,14 @@
 
 #include <plexway/render/picture.hpp>
 
-#include "composition.hpp"
-#include "draw_list.hpp"
-#include "finish.hpp"
 #include "io/base64.hpp"
+#include "io/names.hpp"
 #include "io/output_file.hpp"
-#include "io/quote.hpp"
-#include "png_bytes.hpp"
-#include "sight.hpp"
+#include "render/canvas.hpp"
+#include "render/composition.hpp"
+#include "render/draw_list.hpp"
+#include "render/png.hpp"
+#include "render/sight.hpp"
 
 namespace plexway::render {
 

@@ -1,14 +1,23 @@
+#include "shape/boundary.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <map>
+#include <utility>
+#include <variant>
 #include <vector>
+
+#include <plexway/error.hpp>
+#include <plexway/paths/path_field.hpp>
+#include <plexway/shape/support.hpp>
+#include <plexway/solve.hpp>
 
 #include "complexes/common/box_tree.hpp"
 #include "complexes/common/closest_point.hpp"
 #include "complexes/solid/shared_faces.hpp"
-#include "shape/boundary.hpp"
 #include "shape/shape_state.hpp"
 
 namespace plexway {
@@ -128,7 +137,7 @@ std::vector<char> kinds_of(const io::Tets& solid) {
   std::vector<char> used(solid.positions.size(), 0);
   for (const auto& tet : solid.tets)
     for (const Index v : tet) used[v] = 1;
-  for (const Index v : rim_vertices(cells_of(solid.tets))) used[v] = 2;
+  for (const Index v : rim_vertices(io::cells_of(solid.tets))) used[v] = 2;
   return used;
 }
 
@@ -178,6 +187,167 @@ VertexSource rim_of(const VertexSource& walls) {
   for (std::size_t i = 0; i < walls.vertices.size(); ++i)
     if (walls.offsets.empty() || walls.offsets[i] == 0) rim.vertices.push_back(walls.vertices[i]);
   return rim;
+}
+
+namespace {
+
+template <class Complex, class Positions>
+std::vector<PointSource> join(const Complex& complex, const Positions& positions,
+                              std::span<const PointSource> points) {
+  PathField field(complex, positions);
+  std::vector<PointSource> curve = {points[0]};
+  for (std::size_t n = 1; n < points.size(); ++n) {
+    // Traced back to its source, so it starts with the point before.
+    field.solve(Serial{}, points[n]);
+    const Path path = field.trace(points[n - 1]);
+    if (path.points.empty())
+      throw InputError("there is no path from point " + std::to_string(n - 1) + " to the next");
+    for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
+      const PathPoint& at = path.points[i];
+      curve.push_back({.simplex = at.simplex, .barycentric = at.barycentric});
+    }
+    curve.push_back(points[n]);
+  }
+  return curve;
+}
+
+// Boundary edges as lines, each as long as it goes on.
+std::vector<PointSource> rim_lines(const io::Triangles& surface) {
+  std::map<std::pair<Index, Index>, int> count;
+  for (const auto& f : surface.triangles)
+    for (std::size_t i = 0; i < 3; ++i) ++count[std::minmax(f[i], f[(i + 1) % 3])];
+  std::multimap<Index, Index> next;
+  for (const auto& f : surface.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (count[std::minmax(f[i], f[(i + 1) % 3])] == 1) next.emplace(f[i], f[(i + 1) % 3]);
+  std::vector<PointSource> lines;
+  while (!next.empty()) {
+    if (!lines.empty()) lines.emplace_back();
+    lines.push_back(PointSource::at(next.begin()->first));
+    for (auto at = next.begin(); at != next.end(); at = next.find(lines.back().vertex)) {
+      lines.push_back(PointSource::at(at->second));
+      next.erase(at);
+    }
+  }
+  return lines;
+}
+
+}  // namespace
+
+CurveSource AnyShape::joined(std::span<const PointSource> points) const {
+  support(Purpose::lines, *this).require();
+  if (points.empty()) throw UsageError("a line needs at least one point");
+  return with_file_name(*this, [&]() -> CurveSource {
+    if (const auto* surface = std::get_if<io::Triangles>(&data())) {
+      const TriangleMesh<double> mesh(surface->positions, surface->triangles);
+      return {.points = join(mesh, surface->positions, points)};
+    }
+    const auto& wires = std::get<io::Edges>(data());
+    const Wireframe<double> wireframe(wires.positions, wires.edges);
+    return {.points = join(wireframe, wires.positions, points)};
+  });
+}
+
+Source AnyShape::boundary(double offset) const {
+  support(Purpose::boundaries, kind()).require();
+  const auto nothing = [&]() -> InputError {
+    return InputError("source boundary: the " + std::string(kind_noun(kind())) + " has none");
+  };
+  if (const auto* surface = std::get_if<io::Triangles>(&data())) {
+    CurveSource curve{.points = rim_lines(*surface), .offset = offset};
+    if (curve.points.empty()) throw nothing();
+    return curve;
+  }
+  VertexSource source;
+  if (kind() == DomainKind::solid && lengths() == nullptr)
+    source = walls_of(std::get<io::Tets>(data()));
+  else
+    source.vertices = rim_vertices(state_->cells.front());
+  source.offset = offset;
+  if (source.vertices.empty()) throw nothing();
+  return source;
+}
+
+namespace {
+
+void add_edges(std::span<const std::uint32_t> corners,
+               std::vector<std::array<std::uint32_t, 2>>& edges) {
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    for (std::size_t j = i + 1; j < corners.size(); ++j)
+      if (corners[i] != corners[j])
+        edges.push_back({std::min(corners[i], corners[j]), std::max(corners[i], corners[j])});
+}
+
+void sort_out(std::vector<std::array<std::uint32_t, 2>>& edges) {
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+}
+
+// With any number of coordinates, or lengths of their own; where two simplices differ, the lesser.
+io::Edges edges_of_simplices(const SimplexShape& shape) {
+  const auto corners = static_cast<std::size_t>(shape.dimension) + 1;
+  std::map<std::array<std::uint32_t, 2>, double> length;
+  for (std::size_t s = 0, next = 0; s < shape.corners.size() / corners; ++s)
+    for (std::size_t j = 1; j < corners; ++j)
+      for (std::size_t i = 0; i < j; ++i, ++next) {
+        const std::uint32_t a = shape.corners[s * corners + i], b = shape.corners[s * corners + j];
+        double squared = 0;
+        for (std::size_t k = 0; k < shape.axes; ++k) {
+          const double d =
+              shape.positions[a * shape.axes + k] - shape.positions[b * shape.axes + k];
+          squared += d * d;
+        }
+        const double given = shape.axes > 0 ? std::sqrt(squared) : shape.lengths[next];
+        const auto [known, is_new] = length.try_emplace({std::min(a, b), std::max(a, b)}, given);
+        if (!is_new) known->second = std::min(known->second, given);
+      }
+  io::Edges made;
+  made.vertices = shape.vertices;
+  for (const auto& [ends, of] : length) {
+    made.edges.push_back(ends);
+    made.lengths.push_back(of);
+  }
+  return made;
+}
+
+io::Edges edges_of_cloud(const CloudShape& cloud) {
+  io::Edges made;
+  made.positions = cloud.measured();
+  made.vertices = made.positions.size();
+  for (Index i = 0; i < cloud.neighbours.point_count(); ++i)
+    for (const Index j : cloud.neighbours.around(i))
+      made.edges.push_back({std::min(i, j), std::max(i, j)});
+  sort_out(made.edges);
+  return made;
+}
+
+}  // namespace
+
+io::Edges edges_of(const AnyShape& shape) {
+  if (shape.cloud() != nullptr) return edges_of_cloud(*shape.cloud());
+  if (const auto* wireframe = std::get_if<io::Edges>(&shape.data())) return *wireframe;
+  if (const auto* simplices = std::get_if<SimplexShape>(&shape.data()))
+    return edges_of_simplices(*simplices);
+  io::Edges made;
+  made.positions.assign(shape.positions().begin(), shape.positions().end());
+  made.vertices = shape.vertices();
+  for (std::size_t s = 0; s < shape.simplices(); ++s) add_edges(shape.corners(s), made.edges);
+  sort_out(made.edges);
+  return made;
+}
+
+std::vector<double> lengths_of(const io::Edges& wireframe) {
+  if (!wireframe.lengths.empty()) return wireframe.lengths;
+  if (wireframe.positions.size() != wireframe.vertices)
+    throw UsageError("the edges have neither lengths nor positions");
+  std::vector<double> lengths;
+  lengths.reserve(wireframe.edges.size());
+  for (const auto& [from, to] : wireframe.edges) {
+    const auto& a = wireframe.positions[from];
+    const auto& b = wireframe.positions[to];
+    lengths.push_back(std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
+  }
+  return lengths;
 }
 
 }  // namespace plexway

@@ -5,8 +5,10 @@
 #include <span>
 #include <vector>
 
+#include <plexway/io/edges.hpp>
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
+#include <plexway/shape/shape.hpp>
 #include <plexway/source/source.hpp>
 
 #include "io/field/field_formats.hpp"
@@ -34,5 +36,13 @@ VertexSource walls_of(const io::Tets& solid);
 
 /// What is left of it where lengths are others: the vertices of the boundary.
 VertexSource rim_of(const VertexSource& walls);
+
+/// The edges of all simplices, each once, ascending, with the positions of all vertices; a simplex
+/// that names a vertex twice adds no loop. Cost: O(n log n).
+/// Of a cloud, those from each point to its neighbours, measured as its paths are.
+io::Edges edges_of(const AnyShape& shape);
+
+/// One length an edge, where they are given and where they follow from the positions.
+std::vector<double> lengths_of(const io::Edges& wireframe);
 
 }  // namespace plexway

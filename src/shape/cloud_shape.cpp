@@ -8,7 +8,7 @@
 #include <plexway/error.hpp>
 #include <plexway/surface/smoothing.hpp>
 
-#include "io/extension.hpp"
+#include "io/names.hpp"
 #include "shape/modules/module.hpp"
 
 #ifdef PLEXWAY_HAS_FLANN

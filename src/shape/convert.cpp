@@ -12,7 +12,7 @@
 #include <plexway/shape/shape.hpp>
 #include <plexway/shape/support.hpp>
 
-#include "io/extension.hpp"
+#include "io/names.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/boundary.hpp"
 #include "shape/fill.hpp"

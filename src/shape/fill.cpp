@@ -4,7 +4,7 @@
 
 #include <plexway/error.hpp>
 
-#include "io/extension.hpp"
+#include "io/names.hpp"
 
 #ifdef PLEXWAY_HAS_TETGEN
 #include <plexway/tetgen/tetrahedralize.hpp>

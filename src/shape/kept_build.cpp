@@ -9,7 +9,7 @@
 #include <plexway/error.hpp>
 #include <plexway/shape/support.hpp>
 
-#include "io/extension.hpp"
+#include "io/names.hpp"
 #include "shape/kept_build.hpp"
 #include "shape/shape_state.hpp"
 
@@ -154,7 +154,7 @@ std::span<const std::array<double, 3>> KeptShape::positions() const {
 
 std::vector<io::Cells> KeptShape::cells() const {
   std::vector<io::Cells> found;
-  each_list(lent_, [&](const auto& list) { found.push_back(cells_of(list)); });
+  each_list(lent_, [&](const auto& list) { found.push_back(io::cells_of(list)); });
   return found;
 }
 

@@ -14,7 +14,7 @@
 #include <plexway/shape/isolines.hpp>
 #include <plexway/shape/support.hpp>
 
-#include "io/extension.hpp"
+#include "io/names.hpp"
 #include "shape/level_sets.hpp"
 #include "shape/warnings/survey.hpp"
 

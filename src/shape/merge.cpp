@@ -11,7 +11,6 @@
 #include <plexway/shape/shape.hpp>
 #include <plexway/shape/support.hpp>
 
-#include "shape/merge.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/words.hpp"
 

@@ -2,20 +2,24 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include <plexway/error.hpp>
 #include <plexway/io/formats.hpp>
+#include <plexway/io/labels.hpp>
 #include <plexway/io/mixed.hpp>
+#include <plexway/shape/shape.hpp>
 #include <plexway/shape/support.hpp>
+#include <plexway/support.hpp>
 
-#include "io/extension.hpp"
+#include "io/names.hpp"
 #include "shape/arguments/arguments.hpp"
+#include "shape/boundary.hpp"
 #include "shape/fill.hpp"
 #include "shape/kept_build.hpp"
-#include "shape/merge.hpp"
 #include "shape/modules/module.hpp"
 #include "shape/shape_state.hpp"
-#include "shape/simplex_edges.hpp"
+#include "shape/words.hpp"
 
 namespace plexway {
 namespace {
@@ -370,6 +374,35 @@ AnyShape AnyShape::read(std::span<const std::filesystem::path> files, double tol
 
 AnyShape AnyShape::read(const std::filesystem::path& file, const ReadOptions& options) {
   return ShapeFile(file.string(), options).read();
+}
+
+std::vector<std::int64_t> AnyShape::regions() const {
+  support(Purpose::regions, kind()).require();
+  if (file().empty()) throw UsageError("regions come from a file, and this shape has none");
+  const std::string name = file().string();
+  const auto foreign = [&](std::size_t cells) {
+    return UsageError(name + " has regions of " + counted(cells, "cells") + ", which are not the " +
+                      counted(simplices(), simplex_name()) + " of the domain");
+  };
+  io::Regions found = io::read_regions(file());
+  std::vector<std::int64_t> regions;
+  if (kind() == DomainKind::solid) {
+    regions = std::move(found.tets);
+  } else if (kind() == DomainKind::mixed) {
+    for (const auto* list : {&found.edges, &found.triangles, &found.tets})
+      regions.insert(regions.end(), list->begin(), list->end());
+  } else {
+    const io::Mixed cells = io::read_cells(file());
+    if (const auto* surface = std::get_if<io::Triangles>(&data())) {
+      if (cells.triangles != surface->triangles) throw foreign(cells.triangles.size());
+      regions = std::move(found.triangles);
+    } else {
+      if (cells.edges != std::get<io::Edges>(data()).edges) throw foreign(cells.edges.size());
+      regions = std::move(found.edges);
+    }
+  }
+  if (regions.size() != simplices()) throw foreign(regions.size());
+  return regions;
 }
 
 }  // namespace plexway

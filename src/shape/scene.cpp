@@ -15,7 +15,6 @@
 #include "shape/boundary.hpp"
 #include "shape/scene.hpp"
 #include "shape/shape_state.hpp"
-#include "shape/simplex_edges.hpp"
 #include "shape/warnings/survey.hpp"
 
 namespace plexway {

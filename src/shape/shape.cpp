@@ -11,11 +11,10 @@
 #include <plexway/shape/support.hpp>
 
 #include "complexes/common/closest_point.hpp"
-#include "io/extension.hpp"
+#include "io/names.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/fill.hpp"
 #include "shape/kept_build.hpp"
-#include "shape/merge.hpp"
 #include "shape/modules/module.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/words.hpp"
@@ -124,12 +123,12 @@ AnyShape AnyShape::of(State state) {
     made->positions = made->kept->shape->positions();
     return AnyShape(made);
   }
-  each_list(made->data, [&](const auto& list) { made->cells.push_back(cells_of(list)); });
+  each_list(made->data, [&](const auto& list) { made->cells.push_back(io::cells_of(list)); });
   if (const auto* simplices = std::get_if<SimplexShape>(&made->data)) {
     made->places = places_of(*simplices);
     made->positions = made->places;
     made->vertices = simplices->vertices;
-    made->cells = {{0, static_cast<std::size_t>(simplices->dimension) + 1, simplices->corners}};
+    made->cells = {{static_cast<std::size_t>(simplices->dimension) + 1, simplices->corners}};
   } else if (const auto* cloud = std::get_if<CloudShape>(&made->data)) {
     made->positions = cloud->points.positions;
   } else {
@@ -207,7 +206,7 @@ AnyShape AnyShape::simplices(SimplexShape shape) {
                      " come in rows of " + std::to_string(corners) + ", not " +
                      std::to_string(shape.corners.size()) + " in all");
   const std::size_t count = shape.corners.size() / corners;
-  check_corners({0, corners, shape.corners}, "simplices", 0, shape.vertices, shape.vertices);
+  check_corners({corners, shape.corners}, "simplices", 0, shape.vertices, shape.vertices);
   if (shape.axes > 0 && shape.positions.size() != shape.vertices * shape.axes)
     throw InputError(counted(shape.positions.size(), "coordinates") + " for " +
                      counted(shape.vertices, "vertices") + " of " + std::to_string(shape.axes));
@@ -228,7 +227,7 @@ AnyShape AnyShape::mixed(MixedShape shape) {
       throw InputError("the parts of a mixed domain do not number their vertices through");
     first += part.vertices;
     const auto check = [&](const auto& list) {
-      const io::Cells cells = cells_of(list);
+      const io::Cells cells = io::cells_of(list);
       check_corners(cells, names_by_corners[cells.corners], part.first_vertex, first,
                     shape.positions.size());
     };
@@ -336,12 +335,12 @@ FieldCells::FieldCells(const AnyShape& shape) {
   if (const CloudShape* const cloud = shape.cloud()) {
     lists_[0].resize(shape.vertices());
     std::iota(lists_[0].begin(), lists_[0].end(), Index{0});
-    all = {{1, 1, lists_[0]}};
+    all = {{1, lists_[0]}};
     original = cloud->points.original;
     return;
   }
   // The vertices alone: as a wireframe without edges.
-  all = {{3, 2, {}}};
+  all = {{2, {}}};
   if (shape.positions().empty() || shape.kind() == DomainKind::simplices) return;
   all = shape.state().cells;
   if (shape.kind() != DomainKind::mixed) return;
@@ -349,14 +348,10 @@ FieldCells::FieldCells(const AnyShape& shape) {
   all.clear();
   for (std::size_t corners = 2; corners <= 4; ++corners) {
     std::vector<Index>& list = lists_[corners - 2];
-    io::Cells joined{};
-    for (const io::Cells& cells : shape.state().cells) {
-      if (cells.corners != corners) continue;
-      list.insert(list.end(), cells.connectivity.begin(), cells.connectivity.end());
-      joined = cells;
-    }
-    joined.connectivity = list;
-    if (!list.empty()) all.push_back(joined);
+    for (const io::Cells& cells : shape.state().cells)
+      if (cells.corners == corners)
+        list.insert(list.end(), cells.connectivity.begin(), cells.connectivity.end());
+    if (!list.empty()) all.push_back({corners, list});
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include <plexway/error.hpp>
 #include <plexway/paths/path.hpp>
+#include <plexway/shape/open_simplices.hpp>
 #include <plexway/shape/shape.hpp>
 
 #include "io/field/field_formats.hpp"
@@ -59,13 +60,7 @@ void each_list(Data& data, const Use& use) {
       data);
 }
 
-/// Rows of `N` corners as cells, and cells as such rows.
-template <class List>
-[[nodiscard]] io::Cells cells_of(const List& list) {
-  constexpr std::size_t corners = std::tuple_size_v<typename List::value_type>;
-  constexpr std::array<std::uint8_t, 5> types = {0, 1, 3, 5, 10};
-  return io::cells_of<corners>(types[corners], {list.data(), list.size()});
-}
+/// Cells as rows of `N` corners; io::cells_of is the way back.
 template <std::size_t N>
 [[nodiscard]] std::span<const std::array<Index, N>> rows_of(const io::Cells& cells) {
   return {reinterpret_cast<const std::array<Index, N>*>(cells.connectivity.data()), cells.count()};
@@ -108,5 +103,18 @@ auto with_file_name(const AnyShape& shape, Build build) {
     throw InputError(shape.file().string() + ": " + error.what());
   }
 }
+
+/// Makes vertices one that are no farther apart than `tolerance`: AnyShape::merged. Of other kinds
+/// than surfaces, solids and wireframes with positions nothing. Simplices that lose a corner by it
+/// are still to be found.
+void merge_vertices(AnyShape::State& state, double tolerance);
+
+/// Looks for simplices with a corner twice. They have no area and no place in a complex, but keep
+/// their numbers: they are as if masked. (An edge from a vertex to itself is one that no path
+/// takes.)
+void find_collapsed(AnyShape::State& state);
+
+/// "2 triangles have a corner twice and are left out, 17 is the first"; empty where none has.
+[[nodiscard]] std::string collapsed_sentence(const AnyShape& shape);
 
 }  // namespace plexway

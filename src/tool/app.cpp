@@ -13,13 +13,10 @@
 #include <plexway/error.hpp>
 #include <plexway/version.hpp>
 
-#include "io/did_you_mean.hpp"
 #include "io/file_bytes.hpp"
+#include "io/names.hpp"
 #include "shape/info/solve_words.hpp"
-#include "tool/commands/commands.hpp"
-#include "tool/exit_codes.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/help_pages.hpp"
 
 namespace plexway::cli {
 namespace {

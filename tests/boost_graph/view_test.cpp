@@ -8,7 +8,6 @@
 #include <boost/graph/kruskal_min_spanning_tree.hpp>
 #include <catch2/catch.hpp>
 
-#include <plexway/boost_graph/graph.hpp>
 #include <plexway/boost_graph/wireframe.hpp>
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
@@ -17,7 +16,6 @@
 
 namespace plexway::testing::view_test {
 
-using boost_graph::Components;
 using boost_graph::EdgeGraph;
 using boost_graph::GraphView;
 
@@ -157,7 +155,7 @@ TEST_CASE("view: A star finds the same way and looks at less") {
   CHECK(with < without / 2);
 }
 
-TEST_CASE("view: connected components agree with ours, and with the summary") {
+TEST_CASE("view: connected components agree with the summary") {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const Wires wires = random_wires(seed, 200, 40 + 10 * seed);
     const auto w = wires.wireframe<float>();
@@ -166,45 +164,20 @@ TEST_CASE("view: connected components agree with ours, and with the summary") {
     const std::size_t count = boost::connected_components(
         GraphView(graph), boost::make_iterator_property_map(
                               of_vertex.data(), boost::typed_identity_property_map<Index>()));
-    const Components ours = boost_graph::connected_components(w);
-    CHECK(ours.count == count);
-    CHECK(ours.of_vertex == of_vertex);  // both number them by their first vertices
     CHECK(count == w.summary().components + w.summary().unreferenced_vertices);
-    const Components plain = boost_graph::connected_components(wires.vertices, wires.edges);
-    CHECK(plain.of_vertex == of_vertex);
   }
 }
 
-TEST_CASE("connected components of triangles and tetrahedra") {
-  using boost_graph::connected_components;
-  {
-    const std::vector<std::array<double, 3>> at = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0},
-                                                   {0, 0, 3}, {1, 2, 3}, {9, 9, 9}};
-    const std::vector<std::array<Index, 4>> tets = {{0, 1, 2, 3}, {4, 1, 2, 3}};
-    const TetMesh<double> solid(at, tets);
-    const Components parts = connected_components(solid);
-    CHECK(parts.count == 2);
-    CHECK(parts.of_vertex == std::vector<Index>{0, 0, 0, 0, 0, 1});
-    const boost_graph::EdgeGraph graph(solid);
-    CHECK(graph.edges().size() == 9);
-    for (std::size_t e = 0; e < graph.edges().size(); ++e) {
-      const auto &p = at[graph.edges()[e][0]], &q = at[graph.edges()[e][1]];
-      CHECK(graph.lengths()[e] == Approx(std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2])));
-    }
+TEST_CASE("an edge graph of tetrahedra has each edge once, with its length") {
+  const std::vector<std::array<double, 3>> at = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0},
+                                                 {0, 0, 3}, {1, 2, 3}, {9, 9, 9}};
+  const std::vector<std::array<Index, 4>> tets = {{0, 1, 2, 3}, {4, 1, 2, 3}};
+  const boost_graph::EdgeGraph graph(TetMesh<double>(at, tets));
+  CHECK(graph.edges().size() == 9);
+  for (std::size_t e = 0; e < graph.edges().size(); ++e) {
+    const auto &p = at[graph.edges()[e][0]], &q = at[graph.edges()[e][1]];
+    CHECK(graph.lengths()[e] == Approx(std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2])));
   }
-  const Components surfaces =
-      connected_components(9, std::vector<std::array<Index, 3>>{{4, 3, 5}, {0, 1, 2}, {5, 6, 7}});
-  CHECK(surfaces.count == 3);
-  CHECK(surfaces.of_vertex == std::vector<Index>{0, 0, 0, 1, 1, 1, 1, 1, 2});
-  const Components solids =
-      connected_components(9, std::vector<std::array<Index, 4>>{{8, 1, 2, 3}, {4, 5, 6, 7}});
-  CHECK(solids.count == 3);
-  CHECK(solids.of_vertex == std::vector<Index>{0, 1, 1, 1, 2, 2, 2, 2, 1});
-  CHECK_THROWS_WITH(
-      connected_components(3, std::vector<std::array<Index, 3>>{{0, 1, 2}, {0, 1, 3}}),
-      "simplex 1: vertex 3 is out of range, there are 3");
-  const Components mesh = connected_components(bow_tie(3).mesh<float>());
-  CHECK(mesh.count == 1);  // a path may pass the vertex where both halves touch
 }
 
 TEST_CASE("view: other algorithms run as they are") {
@@ -218,11 +191,14 @@ TEST_CASE("view: other algorithms run as they are") {
     void discover_vertex(Index, const GraphView&) { ++*n; }
   };
   boost::breadth_first_search(view, 0u, boost::visitor(Count(&reached)));
-  const Components parts = boost_graph::connected_components(wires.vertices, wires.edges);
-  CHECK(reached == std::size_t(std::count(parts.of_vertex.begin(), parts.of_vertex.end(), 0u)));
+  std::vector<Index> part(wires.vertices);
+  const std::size_t parts = boost::connected_components(
+      view,
+      boost::make_iterator_property_map(part.data(), boost::typed_identity_property_map<Index>()));
+  CHECK(reached == std::size_t(std::count(part.begin(), part.end(), 0u)));
   std::vector<GraphView::edge_descriptor> tree;
   boost::kruskal_minimum_spanning_tree(view, std::back_inserter(tree));
-  CHECK(tree.size() == wires.vertices - parts.count);
+  CHECK(tree.size() == wires.vertices - parts);
 }
 
 TEST_CASE("an edge graph refuses what is none, and a view is a graph to make a wireframe from") {

@@ -7,7 +7,6 @@
 
 #include "fuzz_reader.hpp"
 #include "io/readers.hpp"
-#include "io/surface/freesurfer_labels.hpp"
 
 namespace fuzz {
 

@@ -18,8 +18,8 @@
 #include <io/hdf5/include/plexway/hdf5/matrix.hpp>
 #include <plexway/error.hpp>
 
-#include "io/field/half.hpp"
 #include "io/io_testing.hpp"
+#include "io/numbers.hpp"
 
 namespace matrix_test {
 

@@ -13,7 +13,7 @@
 
 #include "folder.hpp"
 #include "io/base64.hpp"
-#include "io/surface/freesurfer_labels.hpp"
+#include "io/readers.hpp"
 
 namespace plexway::brain_surfaces_test {
 

@@ -15,9 +15,9 @@
 #include <plexway/io/write_pairs.hpp>
 
 #include "complexes/test_meshes.hpp"
-#include "io/field/half.hpp"
 #include "io/io_testing.hpp"
-#include "io/matrix/stored_zip.hpp"
+#include "io/matrix/npy.hpp"
+#include "io/numbers.hpp"
 
 namespace plexway::pairs_files_test {
 

@@ -1,4 +1,4 @@
-#include <plexway/io/regions.hpp>
+#include <plexway/io/labels.hpp>
 
 #include <plexway/io/mixed.hpp>
 #include <plexway/io/tets.hpp>

@@ -1,12 +1,12 @@
 #include <set>
 
-#include <plexway/render/image.hpp>
+#include <plexway/render/picture.hpp>
 
-#include "io/field/ticks.hpp"
+#include "io/field/colours.hpp"
 #include "io/io_testing.hpp"
 #include "render/drawing.hpp"
-#include "render/palette.hpp"
-#include "render/stroke_font.hpp"
+#include "render/legend.hpp"
+#include "render/png.hpp"
 
 namespace parts_test {
 

@@ -1,6 +1,6 @@
 #include <plexway/render/picture.hpp>
 
-#include "io/field/colour_map.hpp"
+#include "io/field/colours.hpp"
 #include "render/drawing.hpp"
 
 namespace picture_test {

@@ -5,7 +5,7 @@
 
 #include "render/cells.hpp"
 #include "render/drawing.hpp"
-#include "render/spacings.hpp"
+#include "render/skins.hpp"
 
 namespace robust_test {
 

@@ -22,7 +22,7 @@
 
 #include "folder.hpp"
 #include "shape/kinds.hpp"
-#include "shape/partitioned_field.hpp"
+#include "shape/result_files.hpp"
 
 namespace lengths_alone_test {
 

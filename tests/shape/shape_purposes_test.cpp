@@ -21,7 +21,7 @@
 #include "shape/convert.hpp"
 #include "shape/info/error_classes.hpp"
 #include "shape/kinds.hpp"
-#include "shape/partitioned_field.hpp"
+#include "shape/result_files.hpp"
 
 namespace shape_purposes_test {
 

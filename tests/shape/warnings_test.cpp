@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "shape/spelling.hpp"
+#include "shape/warnings/sentences.hpp"
 
 namespace plexway::warnings_test {
 

@@ -9,7 +9,7 @@
 #include "tool/tool.hpp"
 
 #ifdef PLEXWAY_HAS_RENDER
-#include <plexway/render/image.hpp>
+#include <plexway/render/picture.hpp>
 #endif
 
 namespace picture_test {

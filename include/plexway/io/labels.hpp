@@ -17,4 +17,18 @@ namespace plexway::io {
 [[nodiscard]] std::vector<std::int64_t> read_vertex_labels(const std::filesystem::path& file,
                                                            std::size_t vertices);
 
+/// Which region each cell of a file belongs to, by number: materials, organs, layers of ground.
+struct Regions {
+  std::vector<std::int64_t> edges;      ///< one an edge, as Mixed::edges
+  std::vector<std::int64_t> triangles;  ///< one a triangle, as Mixed::triangles
+  std::vector<std::int64_t> tets;       ///< one a tetrahedron, as Mixed::tets
+};
+
+/// The regions of the cells that `read_cells` takes from a .msh, .vtu or .vtk. Of a .msh the first
+/// physical group, 0 where there is none; of the others the whole numbers of the cell data
+/// `region`, `gmsh:physical`, `MaterialIDs` or `CellEntityIds`, the first that is there.
+///
+/// Throws InputError as those readers do, and where a file has no such data.
+[[nodiscard]] Regions read_regions(const std::filesystem::path& file);
+
 }  // namespace plexway::io

@@ -12,7 +12,6 @@
 
 #include <plexway/io/block_journal.hpp>
 #include <plexway/io/matrix_file.hpp>
-#include <plexway/io/part_file.hpp>
 
 namespace plexway::io {
 

@@ -2,13 +2,94 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include <plexway/render/image.hpp>
-#include <plexway/render/scene.hpp>
+namespace plexway::render {
+
+/// A point or a direction in space.
+using Point = std::array<double, 3>;
+using Colour = std::array<std::uint8_t, 3>;  ///< sRGB
+
+/// A part of a domain and what is known at its vertices. Any number of kinds of simplices at once;
+/// positions without any are a cloud. Everything is referred to and must outlive the picture's
+/// call.
+struct Part {
+  std::span<const Point> positions;  ///< finite
+  /// Simplices of each kind, of vertices < positions.size(); empty where there are none.
+  std::span<const std::array<std::uint32_t, 2>> edges = {};
+  /// Likewise.
+  std::span<const std::array<std::uint32_t, 3>> triangles = {};
+  /// Likewise.
+  std::span<const std::array<std::uint32_t, 4>> tets = {};
+  /// One a vertex, of any length, or none: the side that the discs of a cloud face.
+  std::span<const Point> normals = {};
+  /// One a vertex, or none: then the part has one colour. What is not finite was not reached.
+  std::span<const double> value = {};
+  /// Of a cloud, one a vertex, or none: how `value` grows, by length. With it discs are coloured
+  /// linearly and have isolines. What is not finite counts as 0.
+  std::span<const Point> slope = {};
+  /// One a vertex, or none: which cell it is in, negative where in none. Each cell has a colour of
+  /// its own, and `value`, the distance from the cell's source, says where borders run inside of
+  /// triangles.
+  std::span<const std::int32_t> label = {};
+  std::optional<Colour> colour = {};  ///< of a part without values
+  bool ghost = false;                 ///< only a veil: one sees what lies inside
+  bool whole = false;                 ///< the clip plane does not cut it
+};
+
+/// Balls at points, with a colour or with values.
+struct Dots {
+  /// Finite, in the scene's unit.
+  std::vector<Point> positions;
+  std::vector<double> value = {};  ///< one a point, or none
+  /// Of points without values.
+  Colour colour = {213, 70, 46};
+  double size = 1;  ///< 1 is as thick as looks right for a sample
+};
+
+/// Everything in one picture. The lengths of all parts are in one unit.
+struct Scene {
+  /// The domain, in as many parts as are shown differently.
+  std::vector<Part> parts;
+  std::vector<std::vector<Point>> paths;  ///< polylines, drawn as tubes
+  std::vector<Point> sources;             ///< red balls
+  std::vector<Point> targets;             ///< white balls
+  /// Balls besides.
+  std::vector<Dots> dots;
+};
+
+/// Pixels in sRGB, rows from the top, each from the left; alpha is straight, not multiplied in.
+struct Image {
+  ///@{
+  /// In pixels.
+  std::size_t width = 0, height = 0;
+  ///@}
+  std::vector<std::array<std::uint8_t, 4>> pixels;  ///< width * height
+
+  /// The pixel of column x < width and row y < height (not checked).
+  [[nodiscard]] const std::array<std::uint8_t, 4>& at(std::size_t x, std::size_t y) const {
+    return pixels[y * width + x];
+  }
+  /// To be written to.
+  [[nodiscard]] std::array<std::uint8_t, 4>& at(std::size_t x, std::size_t y) {
+    return pixels[y * width + x];
+  }
+};
+
+/// Writes a PNG, without alpha where all is opaque, or with at most `colours` colours (1 to 256): a
+/// quarter of the bytes, for pages of many pictures. The file appears whole or not at all. Throws
+/// Error "cannot write FILE: reason" when the system refuses, UsageError for an empty image.
+void write_png(const std::filesystem::path& file, const Image& image, std::size_t colours = 0);
+
+/// Reads any PNG as 8 bits a channel. Throws InputError when it cannot.
+Image read_png(const std::filesystem::path& file);
+
+}  // namespace plexway::render
 
 /// The component `render`, link plexway::render: pictures of domains and fields, without a display.
 namespace plexway::render {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <plexway/fields/fine_field.hpp>
-#include <plexway/render/scene.hpp>
+#include <plexway/render/picture.hpp>
 #include <plexway/shape/shape.hpp>
 #include <plexway/source/source.hpp>
 

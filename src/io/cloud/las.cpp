@@ -6,8 +6,8 @@
 
 #include <plexway/io/points.hpp>
 
-#include "io/bytes.hpp"
-#include "io/surface/surface_checks.hpp"
+#include "io/numbers.hpp"
+#include "io/surface/polygons.hpp"
 
 namespace plexway::io {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <plexway/io/points.hpp>
 
-#include "io/extension.hpp"
 #include "io/file_bytes.hpp"
+#include "io/names.hpp"
 #include "io/surface/ply_body.hpp"
 
 namespace plexway::io {

@@ -11,8 +11,8 @@
 
 #include <plexway/io/points.hpp>
 
-#include "io/quote.hpp"
-#include "io/surface/surface_checks.hpp"
+#include "io/names.hpp"
+#include "io/surface/polygons.hpp"
 #include "io/text_scanner.hpp"
 
 namespace plexway::io {

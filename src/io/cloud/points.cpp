@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "io/extension.hpp"
+#include "io/names.hpp"
 #include "io/output_file.hpp"
 #include "io/readers.hpp"
 

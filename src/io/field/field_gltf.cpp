@@ -10,11 +10,11 @@
 
 #include <plexway/error.hpp>
 
-#include "colour_map.hpp"
 #include "complexes/solid/shared_faces.hpp"
-#include "field_formats.hpp"
 #include "io/base64.hpp"
-#include "io/bytes.hpp"
+#include "io/field/colours.hpp"
+#include "io/field/field_formats.hpp"
+#include "io/numbers.hpp"
 
 namespace plexway::io {
 namespace {

@@ -1,19 +1,17 @@
 #include <plexway/io/page.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <string_view>
 
 #include <plexway/error.hpp>
 
-#include "colour_map.hpp"
 #include "io/base64.hpp"
-#include "io/bytes.hpp"
+#include "io/field/colours.hpp"
+#include "io/field/page_text.hpp"
+#include "io/numbers.hpp"
 #include "io/output_file.hpp"
-#include "page_text.hpp"
-#include "ticks.hpp"
 
 namespace plexway::io {
 namespace {
@@ -193,28 +191,16 @@ class PageWriter {
     end_base64();
   }
 
-  // Four bytes in little endian, three of which make four letters.
+  // Four bytes in little endian.
   template <class Number>
   void put(Number value) {
     static_assert(sizeof value == 4);
-    auto bits = std::bit_cast<std::uint32_t>(value);
-    for (int i = 0; i < 4; ++i, bits >>= 8) {
-      group_ = group_ << 8 | (bits & 0xFF);
-      if (++waiting_ == 3) flush_group();
-    }
-  }
-  void flush_group() {
-    group_ <<= 8 * (3 - waiting_);
-    char letters[4];
-    for (int i = 0; i < 4; ++i)
-      letters[i] = i > waiting_ ? '=' : base64_digits[group_ >> (18 - 6 * i) & 63];
-    out_.write({letters, 4});
-    group_ = 0;
-    waiting_ = 0;
+    const auto bytes = little_endian(value);
+    bytes_.append(bytes.data(), bytes.size());
   }
   void end_base64() {
-    if (waiting_ > 0) flush_group();
-    out_.write("\"");
+    out_.write(encode_base64(bytes_) + "\"");
+    bytes_.clear();
   }
 
   OutputFile& out_;
@@ -222,8 +208,7 @@ class PageWriter {
   std::array<double, 3> centre_{};
   double scale_ = 1, low_ = infinite, high_ = -infinite;
   bool bar_ = false;
-  std::uint32_t group_ = 0;
-  int waiting_ = 0;
+  std::string bytes_;  ///< of the array that is being written
 };
 
 }  // namespace

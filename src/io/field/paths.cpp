@@ -1,5 +1,6 @@
 #include <plexway/io/paths.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -7,7 +8,7 @@
 
 #include <plexway/error.hpp>
 
-#include "io/extension.hpp"
+#include "io/names.hpp"
 #include "io/output_file.hpp"
 
 namespace plexway::io {
@@ -37,14 +38,18 @@ void write_path_row(OutputFile& out, const std::array<double, 3>& p, std::string
   }
 }
 
-void write_path_obj(OutputFile& out, const Paths& paths) {
-  out.write("# geodesic paths by plexway\n");
+void write_path_points(OutputFile& out, const Paths& paths, std::string_view before = "") {
   for (const Path& path : paths)
     for (const auto& p : path.positions) {
-      out.write("v ");
+      out.write(before);
       write_path_row(out, p, " ");
       out.write("\n");
     }
+}
+
+void write_path_obj(OutputFile& out, const Paths& paths) {
+  out.write("# geodesic paths by plexway\n");
+  write_path_points(out, paths, "v ");
   std::size_t next = 1;
   for (const Path& path : paths) {
     if (path.positions.size() > 1) {
@@ -66,11 +71,7 @@ void write_ply(OutputFile& out, const Paths& paths) {
             std::to_string(count_points(paths)) +
             "\nproperty double x\nproperty double y\nproperty double z\nelement edge " +
             std::to_string(edges) + "\nproperty int vertex1\nproperty int vertex2\nend_header\n");
-  for (const Path& path : paths)
-    for (const auto& p : path.positions) {
-      write_path_row(out, p, " ");
-      out.write("\n");
-    }
+  write_path_points(out, paths);
   std::size_t next = 0;
   for (const Path& path : paths) {
     for (std::size_t i = 0; i + 1 < path.positions.size(); ++i) {
@@ -86,22 +87,27 @@ void write_ply(OutputFile& out, const Paths& paths) {
 void write_vtp(OutputFile& out, const Paths& paths) {
   std::size_t lines = 0;
   for (const Path& path : paths) lines += !path.positions.empty();
-  const auto begin = [&](const char* type, const char* name) {
-    out.write(std::string("<DataArray type=\"") + type + "\" Name=\"" + name +
-              "\" format=\"ascii\">\n");
+  const auto begin = [&](const std::string& type, const std::string& name) {
+    out.write("<DataArray type=\"" + type + "\" Name=\"" + name + "\" format=\"ascii\">\n");
   };
   const auto end = [&] { out.write("\n</DataArray>\n"); };
+  // A number for each line.
+  const auto array = [&](const std::string& type, const std::string& name, const auto& of_path) {
+    begin(type, name);
+    for (const Path& path : paths) {
+      if (path.positions.empty()) continue;
+      out.write_text(of_path(path));
+      out.write(" ");
+    }
+    end();
+  };
   out.write(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "
       "byte_order=\"LittleEndian\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
       std::to_string(count_points(paths)) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
       std::to_string(lines) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<Points>\n" +
       "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n");
-  for (const Path& path : paths)
-    for (const auto& p : path.positions) {
-      write_path_row(out, p, " ");
-      out.write("\n");
-    }
+  write_path_points(out, paths);
   out.write("</DataArray>\n</Points>\n<Lines>\n");
   begin("Int64", "connectivity");
   for (std::size_t i = 0, n = count_points(paths); i < n; ++i) {
@@ -109,38 +115,13 @@ void write_vtp(OutputFile& out, const Paths& paths) {
     out.write_text(i);
   }
   end();
-  begin("Int64", "offsets");
   std::size_t offset = 0;
-  for (const Path& path : paths) {
-    if (path.positions.empty()) continue;
-    out.write_text(offset += path.positions.size());
-    out.write(" ");
-  }
-  end();
+  array("Int64", "offsets", [&](const Path& path) { return offset += path.positions.size(); });
   out.write("</Lines>\n<CellData Scalars=\"length\">\n");
-  begin("Float64", "length");
-  for (const Path& path : paths) {
-    if (path.positions.empty()) continue;
-    out.write_text(path.length);
-    out.write(" ");
-  }
-  end();
-  begin("Int64", "source");
-  for (const Path& path : paths) {
-    if (path.positions.empty()) continue;
-    out.write_text(static_cast<std::int64_t>(path.source));
-    out.write(" ");
-  }
-  end();
-  if (!paths.values.empty()) {
-    begin("Float64", "value");
-    for (const Path& path : paths) {
-      if (path.positions.empty()) continue;
-      out.write_text(paths.values[path.source]);
-      out.write(" ");
-    }
-    end();
-  }
+  array("Float64", "length", [](const Path& path) { return path.length; });
+  array("Int64", "source", [](const Path& path) { return std::int64_t{path.source}; });
+  if (!paths.values.empty())
+    array("Float64", "value", [&](const Path& path) { return paths.values[path.source]; });
   out.write("</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n");
 }
 
@@ -149,17 +130,13 @@ void write_json(OutputFile& out, const Paths& paths) {
   for (std::size_t k = 0; k < paths.all.size(); ++k) {
     const Path& path = paths.all[k];
     out.write(k == 0 ? "\n{" : ",\n{");
-    const bool reached = std::isfinite(path.length);
+    const auto if_reached = [&](auto number) {
+      std::isfinite(path.length) ? out.write_text(number) : out.write("null");
+    };
     out.write("\"length\": ");
-    if (reached)
-      out.write_text(path.length);
-    else
-      out.write("null");
+    if_reached(path.length);
     out.write(", \"source\": ");
-    if (reached)
-      out.write_text(path.source);
-    else
-      out.write("null");
+    if_reached(path.source);
     if (!paths.values.empty()) {
       out.write(", \"value\": ");
       out.write_text(paths.values[path.source]);
@@ -192,18 +169,15 @@ constexpr std::array<PathWriter, 4> path_writers = {write_path_obj, write_ply, w
 
 void write_lines(const std::filesystem::path& file, const Paths& paths) {
   const std::string extension = lower_extension(file);
-  for (std::size_t i = 0; i < path_suffixes.size(); ++i) {
-    if (extension != path_suffixes[i]) continue;
-    for (const Path& path : paths)
-      if (extension != ".json" && path.positions.size() != path.points.size())
-        throw UsageError(file.string() +
-                         ": the vertices have no positions; only .json can hold these paths");
-    OutputFile out(file);
-    path_writers[i](out, paths);
-    out.commit();
-    return;
-  }
-  throw UsageError(unknown_extension(file, path_suffixes));
+  const auto known = std::find(path_suffixes.begin(), path_suffixes.end(), extension);
+  if (known == path_suffixes.end()) throw UsageError(unknown_extension(file, path_suffixes));
+  for (const Path& path : paths)
+    if (extension != ".json" && path.positions.size() != path.points.size())
+      throw UsageError(file.string() +
+                       ": the vertices have no positions; only .json can hold these paths");
+  OutputFile out(file);
+  path_writers[static_cast<std::size_t>(known - path_suffixes.begin())](out, paths);
+  out.commit();
 }
 
 }  // namespace

@@ -11,8 +11,7 @@
 
 #include <plexway/error.hpp>
 
-#include "io/binary_numbers.hpp"
-#include "io/number_type.hpp"
+#include "io/numbers.hpp"
 #include "io/text_scanner.hpp"
 
 namespace plexway::io {

@@ -9,9 +9,8 @@
 
 #include <plexway/error.hpp>
 
-#include "io/bytes.hpp"
-#include "io/field/half.hpp"
-#include "io/field/npy_header.hpp"
+#include "io/matrix/npy.hpp"
+#include "io/numbers.hpp"
 
 namespace plexway::io {
 namespace {

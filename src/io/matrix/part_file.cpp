@@ -1,4 +1,4 @@
-#include <plexway/io/part_file.hpp>
+#include <plexway/io/matrix_file.hpp>
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -8,10 +8,9 @@
 
 #include <plexway/error.hpp>
 
-#include "io/extension.hpp"
-#include "io/field/npy_header.hpp"
+#include "io/matrix/npy.hpp"
+#include "io/names.hpp"
 #include "io/output_file.hpp"
-#include "stored_zip.hpp"
 
 namespace plexway::io {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <plexway/io/tets.hpp>
 
-#include "cells.hpp"
 #include "io/field/value_source.hpp"
 #include "io/readers.hpp"
+#include "io/solid/cells.hpp"
 
 namespace plexway::io {
 namespace {

@@ -1,11 +1,14 @@
 // TetGen's .node and .ele, one item a line.
 // https://wias-berlin.de/software/tetgen/fformats.html
-
 #include <string>
 
+#include <plexway/error.hpp>
 #include <plexway/io/tets.hpp>
 
-#include "cells.hpp"
+#include "io/file_bytes.hpp"
+#include "io/names.hpp"
+#include "io/readers.hpp"
+#include "io/solid/cells.hpp"
 #include "io/text_scanner.hpp"
 
 namespace plexway::io {
@@ -113,6 +116,37 @@ Tets parse_node_ele(NamedText node, NamedText ele) {
   if (solid.tets.empty())
     throw InputError(std::string(ele.name) + ": has no tetrahedra; it has no cells at all");
   return solid;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The file beside `file` that makes it whole; its extension may be in capitals.
+fs::path partner(fs::path file, std::string_view lower, std::string_view upper) {
+  std::error_code ignored;
+  const fs::path other = file.replace_extension(lower);
+  if (fs::exists(other, ignored)) return other;
+  return fs::exists(file.replace_extension(upper), ignored) ? file : other;
+}
+
+}  // namespace
+
+Tets read_node_ele(const fs::path& file) {
+  const bool is_node = lower_extension(file) == ".node";
+  const FileBytes given(file);
+  const fs::path other = is_node ? partner(file, ".ele", ".ELE") : partner(file, ".node", ".NODE");
+  std::error_code ignored;
+  if (!fs::exists(other, ignored))
+    throw InputError(file.string() + ": holds only the " +
+                     (is_node ? "vertices; the tetrahedra" : "tetrahedra; the vertices") +
+                     " must lie beside it in " + other.string());
+  const FileBytes second(other);
+  const std::string given_name = file.string();
+  const std::string other_name = other.string();
+  const NamedText a{given.view(), given_name};
+  const NamedText b{second.view(), other_name};
+  return is_node ? parse_node_ele(a, b) : parse_node_ele(b, a);
 }
 
 }  // namespace plexway::io

@@ -5,8 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "region_parsers.hpp"
-#include "vtk_cells.hpp"
+#include "io/solid/cells.hpp"
 
 namespace plexway::io {
 namespace {

@@ -3,7 +3,7 @@
 // compressed size of each, the blocks.
 // https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
 
-#include "vtu_data.hpp"
+#include "io/solid/vtu_data.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 #include <plexway/error.hpp>
 
 #include "io/base64.hpp"
-#include "io/bytes.hpp"
+#include "io/numbers.hpp"
 
 #if PLEXWAY_IO_ZLIB
 #include <zlib.h>

@@ -6,7 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "io/number_type.hpp"
+#include <plexway/executors/joined_rows.hpp>
+
+#include "io/numbers.hpp"
 
 namespace plexway::io {
 
@@ -34,5 +36,8 @@ struct VtuEncoding {
 /// counts.
 std::string decode_vtu_array(std::string_view data, bool base64, const VtuEncoding& encoding,
                              const std::string& where, std::uint64_t& room);
+
+/// A .vtu as a part of a surface; `name` stands for the file in messages.
+SurfaceFilePart parse_vtu_part(std::string_view bytes, std::string_view name);
 
 }  // namespace plexway::io

@@ -9,10 +9,10 @@
 
 #include <plexway/error.hpp>
 
-#include "io/binary_numbers.hpp"
 #include "io/field/value_source.hpp"
+#include "io/numbers.hpp"
 #include "io/readers.hpp"
-#include "surface_checks.hpp"
+#include "io/surface/polygons.hpp"
 
 namespace plexway::io {
 namespace {

@@ -9,8 +9,8 @@
 #include <plexway/error.hpp>
 
 #include "io/file_bytes.hpp"
-#include "io/quote.hpp"
-#include "surface_checks.hpp"
+#include "io/names.hpp"
+#include "io/surface/polygons.hpp"
 
 #if PLEXWAY_IO_PUGIXML
 #include <pugixml.hpp>
@@ -25,8 +25,7 @@
 #include <optional>
 
 #include "io/base64.hpp"
-#include "io/binary_numbers.hpp"
-#include "io/number_type.hpp"
+#include "io/numbers.hpp"
 #include "io/text_scanner.hpp"
 
 namespace plexway::io {

@@ -17,8 +17,8 @@
 #include <optional>
 
 #include "io/base64.hpp"
-#include "io/bytes.hpp"
-#include "io/quote.hpp"
+#include "io/names.hpp"
+#include "io/numbers.hpp"
 #include "io/solid/cells.hpp"
 
 namespace plexway::io {

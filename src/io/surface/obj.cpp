@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "io/quote.hpp"
+#include "io/names.hpp"
 #include "io/readers.hpp"
 #include "io/solid/cells.hpp"
+#include "io/surface/polygons.hpp"
 #include "io/text_scanner.hpp"
-#include "polygons.hpp"
 
 namespace plexway::io {
 namespace {

@@ -3,9 +3,8 @@
 
 #include <plexway/io/triangles.hpp>
 
+#include "io/surface/polygons.hpp"
 #include "io/text_scanner.hpp"
-#include "polygons.hpp"
-#include "surface_checks.hpp"
 
 namespace plexway::io {
 namespace {

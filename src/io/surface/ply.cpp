@@ -7,8 +7,8 @@
 
 #include "io/readers.hpp"
 #include "io/solid/cells.hpp"
-#include "ply_body.hpp"
-#include "polygons.hpp"
+#include "io/surface/ply_body.hpp"
+#include "io/surface/polygons.hpp"
 
 namespace plexway::io {
 namespace {

@@ -1,4 +1,4 @@
-#include "ply_header.hpp"
+#include "io/surface/ply_body.hpp"
 
 #include <optional>
 #include <string>

@@ -14,7 +14,7 @@
 
 #include <plexway/error.hpp>
 
-#include "ply_body.hpp"
+#include "io/surface/ply_body.hpp"
 
 namespace plexway::io {
 namespace {

@@ -2,7 +2,7 @@
 // normals of bent polygons: M. E. Newell, in Sutherland, Sproull, Schumacker, ACM Comput. Surv. 6,
 // 1974.
 
-#include "polygons.hpp"
+#include "io/surface/polygons.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,10 +8,9 @@
 
 #include <plexway/io/triangles.hpp>
 
-#include "io/bytes.hpp"
+#include "io/numbers.hpp"
+#include "io/surface/polygons.hpp"
 #include "io/text_scanner.hpp"
-#include "polygons.hpp"
-#include "surface_checks.hpp"
 
 namespace plexway::io {
 namespace {

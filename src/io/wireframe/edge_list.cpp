@@ -8,7 +8,7 @@
 
 #include <plexway/io/edges.hpp>
 
-#include "io/surface/surface_checks.hpp"
+#include "io/surface/polygons.hpp"
 #include "io/text_scanner.hpp"
 
 namespace plexway::io {

@@ -45,7 +45,7 @@ std::vector<SourceArgument> parse_sources(const std::vector<std::string>& texts,
 /// "did you mean 'vertex:7'? " for a bare number or a bare point, else empty.
 std::string meant_place(std::string_view text);
 
-/// A finite number, and so many between commas.
+/// A finite number, and so many between commas (0: any number of them).
 std::optional<double> number_of(std::string_view text);
 std::optional<std::vector<double>> numbers_of(std::string_view text, std::size_t count);
 /// "X,Y,Z" as finite numbers.

@@ -11,7 +11,6 @@
 
 #include <plexway/error.hpp>
 #include <plexway/io/labels.hpp>
-#include <plexway/shape/mask_text.hpp>
 #include <plexway/shape/open_simplices.hpp>
 
 #include "io/number_rows.hpp"

@@ -61,7 +61,7 @@ std::optional<std::vector<double>> numbers_of(std::string_view text, std::size_t
     if (comma == text.npos) break;
     text.remove_prefix(comma + 1);
   }
-  if (numbers.size() != count) return std::nullopt;
+  if (count > 0 && numbers.size() != count) return std::nullopt;
   return numbers;
 }
 

@@ -8,7 +8,7 @@
 
 #include <plexway/error.hpp>
 
-#include "shape/simplex_edges.hpp"
+#include "shape/boundary.hpp"
 #include "shape/stopwatch.hpp"
 
 #ifdef PLEXWAY_HAS_BOOST_GRAPH

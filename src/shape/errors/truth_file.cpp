@@ -10,7 +10,7 @@
 #include <plexway/error.hpp>
 
 #include "io/file_bytes.hpp"
-#include "io/quote.hpp"
+#include "io/names.hpp"
 #include "io/text_scanner.hpp"
 
 namespace plexway {

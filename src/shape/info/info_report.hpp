@@ -1,7 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -19,6 +23,21 @@ namespace plexway {
 struct InfoReport {
   Json json;  ///< without "input" and "kind"
   Table table;
+  std::vector<std::string> warnings;
+
+  /// So many of them, where there are any, and what that means.
+  void warn(std::size_t count, std::string_view plural, const std::string& meaning) {
+    if (count > 0) warnings.push_back(counted(count, plural) + meaning);
+  }
+  /// How many vertices each component has: of the 100 largest; a row where there are several.
+  void add_components(std::size_t count, const std::vector<std::size_t>& sizes);
+  /// Where it lies, and how long its edges are; `nowhere` stands for the box where there is none.
+  void add_space(std::span<const std::array<double, 3>> positions,
+                 const std::optional<Spread>& spread,
+                 const std::string& nowhere = "none: not in space",
+                 const std::string& edges = "edge length");
+  /// How many simplices are longer than wide.
+  void add_slender(double share, std::string_view simplices);
 };
 
 /// In double precision, on the triangles of the file. Throws InputError "FILE: cause".
@@ -39,30 +58,15 @@ InfoReport info_of(const AnyShape& domain, const CloudShape& cloud);
 InfoReport info_of(const AnyShape& domain, const SimplexShape& simplices);
 InfoReport info_of(const AnyShape& domain, const MixedShape& mixed);
 
-///@{
 /// What the file's reader did besides taking what it has, and simplices that are left out:
 /// "split_polygons", "split_cells", "dropped_simplices" and "passed_over"; rows of what there is.
-void add_file_report(const AnyShape& domain, Json& json);
-void add_file_report(const AnyShape& domain, Table& table);
-///@}
+void add_file_report(const AnyShape& domain, Json& json, Table& table);
 
 /// Executors and devices that can run solves here.
 InfoReport info_of_devices();
 
-// Pieces that several kinds have.
-
-Json to_json(const Bounds& box);
-Json to_json(const Spread& spread);
-std::string to_text(const Bounds& box);
-std::string to_text(const Spread& spread);
-/// At most the 100 largest.
-Json sizes_json(const std::vector<std::size_t>& sizes);
-/// Adds a line with the sizes of the largest components where there are several.
-void add_sizes(Table& table, const std::vector<std::size_t>& sizes);
-
 /// What is measured on a solid beside SolidSummary, in the file's unit.
 struct SolidSurvey {
-  Bounds box;
   Spread edge;                            ///< over all edges, each once
   double volume = 0, largest_volume = 0;  ///< of all tetrahedra, and of one
   /// Share of tetrahedra whose longest edge is more than 10 times sqrt(3/2) their lowest height.
@@ -72,8 +76,5 @@ struct SolidSurvey {
 
 /// Cost: O(n log n).
 SolidSurvey survey_solid(const AnyShape& solid);
-
-/// What may surprise the user of this solid, a sentence each.
-std::vector<std::string> solid_warnings(const SolidSummary& summary, const SolidSurvey& survey);
 
 }  // namespace plexway

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/output_place.hpp"
+#include "io/names.hpp"
 
 namespace plexway {
 
@@ -24,22 +24,7 @@ std::string Table::text() const {
   return text;
 }
 
-void Phases::end(std::string name) {
-  const double now = watch_.seconds();
-  parts_.emplace_back(std::move(name), now - before_);
-  before_ = now;
-}
-
-void Phases::tell(Json& json, Table& table) const {
-  std::string text;
-  for (const auto& [name, seconds] : parts_) {
-    json["seconds"][name] = seconds;
-    text += (text.empty() ? "" : ", ") + name + " " + short_time(seconds);
-  }
-  table.add("time", text);
-}
-
-void add_written(Table& table, std::initializer_list<std::string> files) {
+void add_written(Table& table, const std::vector<std::string>& files) {
   for (const std::string& file : files)
     if (!file.empty() && !io::on_standard_output(file)) table.add("written", file);
 }

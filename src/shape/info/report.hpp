@@ -1,12 +1,10 @@
 #pragma once
 
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "shape/stopwatch.hpp"
 #include "shape/words.hpp"
 
 namespace plexway {
@@ -26,22 +24,8 @@ class Table {
   std::vector<std::pair<std::string, std::string>> lines_;
 };
 
-/// What a command did with its time: all of it, part after part.
-class Phases {
- public:
-  /// A part ends, which began where the one before ended.
-  void end(std::string name);
-  /// The object `seconds`, and the line "time".
-  void tell(Json& json, Table& table) const;
-
- private:
-  Stopwatch watch_;
-  double before_ = 0;
-  std::vector<std::pair<std::string, double>> parts_;
-};
-
 /// A line "written" for each file, but those without a name and standard output.
-void add_written(Table& table, std::initializer_list<std::string> files);
+void add_written(Table& table, const std::vector<std::string>& files);
 
 /// The object as the tool prints it: indented, with a line end. Bytes that are not UTF-8, as a file
 /// name may hold, are replaced.

@@ -21,7 +21,7 @@
 #include <plexway/executors/gl.hpp>
 #endif
 
-#include "io/extension.hpp"
+#include "io/names.hpp"
 #include "shape/inside.hpp"
 #include "shape/modules/module.hpp"
 #include "shape/stopwatch.hpp"

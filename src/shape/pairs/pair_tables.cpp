@@ -6,8 +6,8 @@
 #include <plexway/error.hpp>
 #include <plexway/io/labels.hpp>
 
-#include "io/extension.hpp"
-#include "io/field/npy_header.hpp"
+#include "io/matrix/npy.hpp"
+#include "io/names.hpp"
 #include "io/output_file.hpp"
 
 namespace plexway {

@@ -15,8 +15,8 @@
 #include <plexway/io/triangles.hpp>
 #include <plexway/version.hpp>
 
+#include "io/names.hpp"
 #include "io/output_file.hpp"
-#include "io/output_place.hpp"
 #include "shape/errors/truth_file.hpp"
 #include "shape/info/report.hpp"
 #include "shape/stopwatch.hpp"

@@ -1,4 +1,4 @@
-#include "shape/warnings/complex_warnings.hpp"
+#include "shape/warnings/field_warnings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,8 @@
 #include <plexway/domain/domains.hpp>
 
 #include "complexes/simplicial/simplex_notches.hpp"
-#include "shape/spelling.hpp"
 #include "shape/warnings/bent_crossings.hpp"
-#include "shape/warnings/field_warnings.hpp"
+#include "shape/warnings/sentences.hpp"
 #include "shape/words.hpp"
 
 namespace plexway {

@@ -10,8 +10,7 @@
 #include <plexway/shape/complex.hpp>
 
 #include "complexes/simplicial/simplex_notches.hpp"
-#include "shape/merge.hpp"
-#include "shape/spelling.hpp"
+#include "shape/shape_state.hpp"
 #include "shape/warnings/bent_crossings.hpp"
 #include "shape/warnings/cloud_rims.hpp"
 #include "shape/warnings/sentences.hpp"

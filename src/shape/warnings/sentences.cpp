@@ -2,7 +2,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "shape/spelling.hpp"
 #include "shape/warnings/sentences.hpp"
 #include "shape/words.hpp"
 

@@ -12,7 +12,7 @@
 #include "shape/info/error_classes.hpp"
 #include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"
-#include "tool/commands/commands.hpp"
+#include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/options/solve_options.hpp"
 #include "tool/report/console.hpp"

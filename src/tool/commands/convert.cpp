@@ -3,10 +3,10 @@
 
 #include "shape/convert.hpp"
 #include "shape/info/report.hpp"
-#include "tool/commands/commands.hpp"
+#include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_report.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -20,26 +20,19 @@ void run_convert(const ConvertCommand& command) {
   ProgressLine progress(command.quiet);
   const Converted conversion = convert(command.input, command.out, read_options(command, progress));
   progress.clear();
-  Json json;
-  json["input"] = command.input;
-  json["out"] = command.out;
-  json["kind"] = conversion.kind;
-  json["vertices"] = conversion.vertices;
-  json["simplices"] = conversion.simplices;
-  if (!conversion.note.empty()) json["voxels"] = conversion.note;
-  Table table;
-  table.add("input", command.input);
-  table.add(conversion.kind,
-            counted(conversion.vertices, "vertices") +
-                (conversion.simplex_name.empty()
-                     ? std::string()
-                     : ", " + counted(conversion.simplices, conversion.simplex_name)));
-  if (!conversion.note.empty()) table.add("voxels", conversion.note);
-  json["seconds"] = {{"load", conversion.load_seconds}, {"write", conversion.write_seconds}};
-  table.add("time", "load " + short_time(conversion.load_seconds) + ", write " +
-                        short_time(conversion.write_seconds));
-  add_written(table, {command.out});
-  print_report(json, table, command.json, command.quiet, {command.out});
+  Summary summary(command.input, conversion.kind);
+  summary.json["out"] = command.out;
+  summary.json["vertices"] = conversion.vertices;
+  summary.json["simplices"] = conversion.simplices;
+  summary.table.add(conversion.kind,
+                    counted(conversion.vertices, "vertices") +
+                        (conversion.simplex_name.empty()
+                             ? std::string()
+                             : ", " + counted(conversion.simplices, conversion.simplex_name)));
+  if (!conversion.note.empty()) summary.add("voxels", conversion.note, conversion.note);
+  summary.took("load", conversion.load_seconds);
+  summary.took("write", conversion.write_seconds);
+  summary.print(command, {command.out});
 }
 
 }  // namespace

@@ -10,11 +10,11 @@
 #include <plexway/solve.hpp>
 
 #include "shape/arguments/arguments.hpp"
-#include "shape/point_file.hpp"
-#include "tool/commands/commands.hpp"
+#include "shape/result_files.hpp"
+#include "tool/app.hpp"
 #include "tool/commands/sampling_command.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_report.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -86,7 +86,7 @@ void run_cvt(const CvtCommand& command) {
   static_cast<void>(centre_of(command));
   check_output_name(command.out, command.input, point_file_extensions());
   check_output_name(command.cells, command.input, io::field_extensions(), "--cells");
-  check_output_name(command.dual, command.input, surface_file_extensions(), "--dual");
+  check_output_name(command.dual, command.input, io::triangle_output_extensions(), "--dual");
   check_outputs_differ(
       {command.out, command.cells, command.dual, command.picture.file, command.picture.html});
   check_picture(command.picture, command.input);
@@ -120,48 +120,42 @@ void run_cvt(const CvtCommand& command) {
   if (!command.dual.empty()) {
     const auto& surface = std::get<io::Triangles>(domain.data());
     dual = dual_triangulation(surface.triangles, result.label, voronoi.seeds.size());
-    std::vector<std::array<double, 3>> points;
-    for (const PointSource& seed : voronoi.seeds) points.push_back(domain.position(seed));
-    write_surface(command.dual, points, dual.triangles);
+    io::Triangles shown;
+    for (const PointSource& seed : voronoi.seeds) shown.positions.push_back(domain.position(seed));
+    shown.triangles = dual.triangles;
+    io::write_triangles(command.dual, shown);
   }
   phases.end("write");
   progress.clear();
 
-  Json json;
-  json["input"] = command.input;
-  json["kind"] = domain.kind_name();
-  json["seeds"] = voronoi.seeds.size();
+  Summary summary = points_summary(command, domain, "seeds", voronoi.seeds.size(),
+                                   ", " + counted(voronoi.steps.size(), "iterations") +
+                                       (voronoi.converged ? "" : "; not at rest yet"));
+  Json& json = summary.json;
   json["converged"] = voronoi.converged;
   json["energy"] = voronoi.energy;
   json["steps"] = Json::array();
   for (const VoronoiStep& step : voronoi.steps)
     json["steps"].push_back({{"energy", step.energy}, {"movement", step.movement}});
-  Table table;
-  table.add("input", command.input);
-  table.add("seeds", counted(voronoi.seeds.size(), "seeds") + ", " +
-                         counted(voronoi.steps.size(), "iterations") +
-                         (voronoi.converged ? "" : "; not at rest yet"));
   if (!voronoi.steps.empty())
-    table.add("energy", short_number(voronoi.steps.front().energy) + " at first, " +
-                            short_number(voronoi.energy) + " now");
+    summary.table.add("energy", short_number(voronoi.steps.front().energy) + " at first, " +
+                                    short_number(voronoi.energy) + " now");
   if (!command.dual.empty()) {
     json["dual"]["triangles"] = dual.triangles.size();
     json["dual"]["manifold"] = dual.manifold;
     json["dual"]["irregular"] = dual.irregular;
-    table.add(
+    summary.table.add(
         "dual",
         counted(dual.triangles.size(), "triangles") +
             (dual.manifold ? "" : "; no manifold at " + counted(dual.irregular.size(), "seeds")));
   }
-  phases.tell(json, table);
-  report_picture(command.picture, domain, json, table);
-  add_written(table, {command.out, command.cells, command.dual, command.picture.file,
-                      command.picture.html});
+  phases.tell(summary);
+  report_picture(command.picture, domain, summary);
   add_parts_without(notes, domain, voronoi.seeds, "seeds");
-  notes.tell(json);
-  print_report(
-      json, table, command.json, command.quiet,
-      {command.out, command.cells, command.dual, command.picture.file, command.picture.html});
+  summary.print(
+      command,
+      {command.out, command.cells, command.dual, command.picture.file, command.picture.html},
+      notes);
   notes.say(command.quiet);
 }
 

@@ -13,21 +13,21 @@
 #include <plexway/shape/support.hpp>
 
 #include "executors/same_work.hpp"
+#include "io/field/field_formats.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/fill.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/level_sets.hpp"
-#include "shape/partitioned_field.hpp"
+#include "shape/result_files.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/warnings/field_warnings.hpp"
 #include "shape/warnings/sentences.hpp"
 #include "shape/words.hpp"
-#include "tool/commands/commands.hpp"
+#include "tool/app.hpp"
 #include "tool/commands/distance_command.hpp"
-#include "tool/exit_codes.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_report.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -38,19 +38,6 @@ struct DistanceOutcome : FieldReach {
   Executor executor = {};
   RankCounts ranks = {};
 };
-
-DistanceReport report_of(const DistanceCommand& command, const Domain& domain,
-                         const AnyField& field, const DistanceOutcome& outcome) {
-  return {.vertices = domain.vertices(),
-          .reached = outcome.reached,
-          .farthest = static_cast<Index>(outcome.farthest),
-          .max_distance = outcome.max_distance,
-          .mean_distance = {},
-          .statistics = field.statistics(),
-          .ranks = command.among != nullptr ? command.among->ranks.count() : 0,
-          .counts = outcome.ranks,
-          .of_surface = domain.kind() == DomainKind::surface};
-}
 
 // Where each source is in the domain, and how far from where it was requested.
 Json sources_json(const Domain& domain, const std::vector<SetArgument>& arguments,
@@ -78,73 +65,58 @@ Json sources_json(const Domain& domain, const std::vector<SetArgument>& argument
   return list;
 }
 
-Json to_json(const DistanceCommand& command, const Domain& domain, const AnyDomain& solver,
-             const AnyField& field, const MeasuredLengths* lengths,
-             const std::vector<SetArgument>& arguments, const std::vector<Source>& sources,
-             const DistanceOutcome& outcome) {
-  Json json;
-  json["input"] = domain.file().string();
-  json["kind"] = domain.kind_name();
+Summary summary_of(const DistanceCommand& command, const Domain& domain, const AnyDomain& solver,
+                   const AnyField& field, const MeasuredLengths* lengths,
+                   const std::vector<SetArgument>& arguments, const std::vector<Source>& sources,
+                   const DistanceOutcome& outcome) {
+  Summary summary(domain.file().string(), domain.kind_name());
+  Json& json = summary.json;
+  Table& table = summary.table;
   json["vertices"] = domain.vertices();
   json["simplices"] = solver.simplices();
   json["components"] = solver.components();
+  table.add(std::string(domain.kind_name()), size_text(domain, solver.simplices()) + ", " +
+                                                 counted(solver.components(), "components"));
   json["sources"] = sources_json(domain, arguments, sources);
-  json["seconds"]["load"] = domain.load_seconds();
-  if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
-  if (domain.neighbour_seconds()) json["seconds"]["neighbours"] = *domain.neighbour_seconds();
-  json["seconds"]["build"] = outcome.build;
-  json["seconds"]["solve"] = outcome.solve;
-  add_report(report_of(command, domain, field, outcome), json);
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    table.add(sources.size() == 1 ? "source" : "source " + std::to_string(i),
+              describe_source_set(domain, arguments[i], sources[i]));
+  add_metric(command.metric, lengths, solver.refracting_edges(), summary);
+  if (field.triangulation.done != Triangulation::input)
+    table.add("triangles", describe(field.triangulation));
+  summary.took_loading(domain);
+  summary.took("build", outcome.build);
+  summary.took("solve", outcome.solve);
+  summary.time_note(" (" + describe(outcome.executor) + ", " +
+                    (has_accuracies(domain.kind()) ? name_of(field.accuracy()) + ", " : "") +
+                    command.solve.precision + ")");
+  DistanceReport{.vertices = domain.vertices(),
+                 .reached = outcome.reached,
+                 .farthest = static_cast<Index>(outcome.farthest),
+                 .max_distance = outcome.max_distance,
+                 .mean_distance = {},
+                 .statistics = field.statistics(),
+                 .ranks = command.among != nullptr ? command.among->ranks.count() : 0,
+                 .counts = outcome.ranks,
+                 .of_surface = domain.kind() == DomainKind::surface}
+      .add_to(summary, command.verbose);
   json["executor"] = executor_name(outcome.executor);
   json["threads"] = executor_threads(outcome.executor);
   json["precision"] = command.solve.precision == "float" ? "float" : "double";
   add_accuracy(domain.kind(), field.accuracy(), field.statistics(), json);
   if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(field.triangulation);
-  add_metric(command.metric, lengths, solver.refracting_edges(), json);
-  add_file_report(domain, json);
-  if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
+  add_file_report(domain, json, table);
+  if (!domain.level_set_note().empty())
+    summary.add("voxels", domain.level_set_note(), domain.level_set_note());
   if (const CloudShape* cloud = domain.cloud()) {
     json["points_in_file"] = cloud->points_in_file;
     json["not_finite"] = cloud->not_finite;
     json["outliers"] = cloud->outliers;
     const auto dropped = dropped_points(*cloud);
     json["dropped"] = dropped ? Json(*dropped) : Json(nullptr);
+    if (const std::string kept = kept_points(*cloud); !kept.empty()) table.add("kept", kept);
   }
-  return json;
-}
-
-Table to_table(const DistanceCommand& command, const Domain& domain, const AnyDomain& solver,
-               const AnyField& field, const MeasuredLengths* lengths,
-               const std::vector<SetArgument>& arguments, const std::vector<Source>& sources,
-               const DistanceOutcome& outcome) {
-  Table table;
-  table.add("input", domain.file().string());
-  table.add(std::string(domain.kind_name()),
-            counted(domain.vertices(), "vertices") + ", " +
-                counted(solver.simplices(), domain.simplex_name()) + ", " +
-                counted(solver.components(), "components"));
-  add_file_report(domain, table);
-  if (!domain.level_set_note().empty()) table.add("voxels", domain.level_set_note());
-  add_metric(command.metric, lengths, solver.refracting_edges(), table);
-  if (domain.cloud() != nullptr && !kept_points(*domain.cloud()).empty())
-    table.add("kept", kept_points(*domain.cloud()));
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    const std::string label = sources.size() == 1 ? "source" : "source " + std::to_string(i);
-    table.add(label, describe_source_set(domain, arguments[i], sources[i]));
-  }
-  if (field.triangulation.done != Triangulation::input)
-    table.add("triangles", describe(field.triangulation));
-  add_report(report_of(command, domain, field, outcome), table, command.verbose);
-  std::string mesh = domain.mesh_seconds() ? ", mesh " + short_time(*domain.mesh_seconds()) : "";
-  if (domain.neighbour_seconds()) mesh = ", neighbours " + short_time(*domain.neighbour_seconds());
-  table.add("time", "load " + short_time(domain.load_seconds()) + mesh + ", build " +
-                        short_time(outcome.build) + ", solve " + short_time(outcome.solve) + " (" +
-                        describe(outcome.executor) + ", " +
-                        (has_accuracies(domain.kind()) ? name_of(field.accuracy()) + ", " : "") +
-                        command.solve.precision + ")");
-  add_written(table,
-              {command.out, command.isolines.out, command.picture.file, command.picture.html});
-  return table;
+  return summary;
 }
 
 // What there is to tell of a field; `options` are those that it was solved by.
@@ -275,11 +247,12 @@ void run_distance(DistanceCommand command) {
     const std::vector<std::int32_t> label = field.file_label();
     if (on_standard_output(command.out)) progress.clear();
     if (plain) {
-      write_distance_csv(distance, label,
-                         domain.cloud() != nullptr
-                             ? std::span<const std::uint32_t>(domain.cloud()->points.original)
-                             : std::span<const std::uint32_t>(),
-                         field.error());
+      const std::span<const std::uint32_t> original =
+          domain.cloud() != nullptr ? std::span(domain.cloud()->points.original)
+                                    : std::span<const std::uint32_t>();
+      io::OutputFile out("csv:-");
+      io::write_csv(out, {domain.vertices(), {}, {}, distance, label, original, field.error()});
+      out.commit();
     } else {
       shown.write_field(command.out, distance, label, field.error());
     }
@@ -314,19 +287,17 @@ void run_distance(DistanceCommand command) {
   };
   if (!command.leads()) return check_reached();
 
-  Json json = to_json(command, domain, solver, field, lengths.get(), arguments, sources, outcome);
-  Table table =
-      to_table(command, domain, solver, field, lengths.get(), arguments, sources, outcome);
-  report_picture(command.picture, shown, json, table);
+  Summary summary =
+      summary_of(command, domain, solver, field, lengths.get(), arguments, sources, outcome);
+  report_picture(command.picture, shown, summary);
   Notes notes;
   const AskedPoints asked = asked_points(arguments, sources);
-  for (std::string& far : far_notes(domain, asked.asked, asked.found)) notes.add(std::move(far));
+  notes.add(far_notes(domain, asked.asked, asked.found));
   notes.add(
       notes_on(command, solver, field, sources, options, outcome.executor, isovalues.empty()));
-  notes.tell(json);
-  print_report(json, table, command.json, command.quiet,
-               {command.out, command.isolines.out, command.picture.file, command.picture.html});
-
+  summary.print(command,
+                {command.out, command.isolines.out, command.picture.file, command.picture.html},
+                notes);
   check_reached();
   notes.say(command.quiet);
 }

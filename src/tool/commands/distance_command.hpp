@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "io/field/field_part.hpp"
+#include "io/field/field_formats.hpp"
 #include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/options/picture_options.hpp"

@@ -22,13 +22,13 @@
 #include "shape/arguments/arguments.hpp"
 #include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"
-#include "shape/partitioned_field.hpp"
+#include "shape/result_files.hpp"
 #include "shape/stopwatch.hpp"
 #include "shape/warnings/field_warnings.hpp"
+#include "tool/app.hpp"
 #include "tool/commands/distance_command.hpp"
-#include "tool/exit_codes.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_report.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -231,7 +231,7 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   team.ranks = &among.pieces;
   SurfaceParts<Real> surface =
       with_file_name(command.input, [&] { return SurfaceParts<Real>(team, *rows); });
-  const SurfacePartsSummary& summary = surface.summary();
+  const SurfacePartsSummary& made = surface.summary();
   const Sources sources = sources_on(surface, command, arguments);
   const double build = building.seconds();
 
@@ -274,74 +274,65 @@ void solve_in_parts(DistanceCommand& command, const PropagateOptions& wanted,
   if (!command.leads()) return check_reached();
 
   const PropagateStatistics& statistics = field.statistics;
-  Json json;
-  json["input"] = command.input;
-  json["kind"] = "surface";
+  Summary summary(command.input, "surface");
+  Json& json = summary.json;
   json["in_parts"] = true;
-  json["vertices"] = summary.vertices;
-  json["simplices"] = summary.faces;
-  json["pieces"] = summary.pieces;
-  json["ghosts"] = summary.ghosts;
+  json["vertices"] = made.vertices;
+  json["simplices"] = made.faces;
+  json["pieces"] = made.pieces;
+  json["ghosts"] = made.ghosts;
+  summary.table.add("surface", counted(made.vertices, "vertices") + ", " +
+                                   counted(made.faces, "triangles") + ", in " +
+                                   counted(made.pieces, "pieces") + " with " +
+                                   counted(made.ghosts, "ghosts"));
   if (joined) {
     json["files"]["joined_by"] = joined->by_ids ? "ids" : "places";
     json["files"]["shared_points"] = joined->shared;
     json["files"]["apart"] = joined->apart;
     json["files"]["alone"] = joined->alone;
   }
-  json["seconds"]["build"] = build;
-  json["seconds"]["solve"] = solve;
-  const DistanceReport report = {.vertices = summary.vertices,
-                                 .reached = field.reached,
-                                 .farthest = field.farthest,
-                                 .max_distance = field.max_distance,
-                                 .mean_distance = field.mean_distance,
-                                 .statistics = statistics,
-                                 .ranks = among.ranks.count(),
-                                 .counts = ranks,
-                                 .of_surface = true};
-  add_report(report, json);
+  for (std::size_t i = 0; i < sources.texts.size(); ++i)
+    summary.table.add(sources.texts.size() == 1 ? "source" : "source " + std::to_string(i),
+                      sources.texts[i]);
+  summary.took("build", build);
+  summary.took("solve", solve);
+  summary.time_note(" (" + describe(team) + ", " + name_of(field.accuracy) + ", " +
+                    command.solve.precision + ")");
+  DistanceReport{.vertices = made.vertices,
+                 .reached = field.reached,
+                 .farthest = field.farthest,
+                 .max_distance = field.max_distance,
+                 .mean_distance = field.mean_distance,
+                 .statistics = statistics,
+                 .ranks = among.ranks.count(),
+                 .counts = ranks,
+                 .of_surface = true}
+      .add_to(summary, command.verbose);
   json["executor"] = "openmp";
   json["threads"] = team_size(team);
   json["precision"] = std::is_same_v<Real, float> ? "float" : "double";
   add_accuracy(DomainKind::surface, field.accuracy, statistics, json);
-
-  Table table;
-  table.add("input", command.input);
-  table.add("surface", counted(summary.vertices, "vertices") + ", " +
-                           counted(summary.faces, "triangles") + ", in " +
-                           counted(summary.pieces, "pieces") + " with " +
-                           counted(summary.ghosts, "ghosts"));
-  for (std::size_t i = 0; i < sources.texts.size(); ++i)
-    table.add(sources.texts.size() == 1 ? "source" : "source " + std::to_string(i),
-              sources.texts[i]);
-  add_report(report, table, command.verbose);
-  table.add("time", "build " + short_time(build) + ", solve " + short_time(solve) + " (" +
-                        describe(team) + ", " + name_of(field.accuracy) + ", " +
-                        command.solve.precision + ")");
-  add_written(table, {command.out});
   Notes on_files, notes;
-  if (joined)
-    for (const std::string& warning : warnings_on(*joined)) on_files.add(warning);
+  if (joined) on_files.add(warnings_on(*joined));
   notes.add(work_warnings({.statistics = statistics,
                            .accuracy = field.accuracy,
                            .complete = field.complete,
                            .has_windows = true,
-                           .vertices = summary.vertices,
-                           .edges = std::is_same_v<Real, float> && summary.mean_edge > 0
-                                        ? field.max_distance / summary.mean_edge
+                           .vertices = made.vertices,
+                           .edges = std::is_same_v<Real, float> && made.mean_edge > 0
+                                        ? field.max_distance / made.mean_edge
                                         : 0},
                           Reader::tool));
-  if (const std::size_t left = summary.vertices - field.reached; left > 0)
+  if (const std::size_t left = made.vertices - field.reached; left > 0)
     notes.add({unreached_warning(
         left,
-        summary.unreferenced_vertices > 0
-            ? counted(summary.unreferenced_vertices, "vertices") + " in none of its triangles"
+        made.unreferenced_vertices > 0
+            ? counted(made.unreferenced_vertices, "vertices") + " in none of its triangles"
             : "",
         is_bounded(options), Reader::tool)});
   Notes all = on_files;
   all.add(notes);
-  all.tell(json);
-  print_report(json, table, command.json, command.quiet, {command.out});
+  summary.print(command, {command.out}, all);
   // Also where nothing is reached: that may be why.
   on_files.say(command.quiet);
   check_reached();

@@ -8,11 +8,11 @@
 #include <plexway/sampling/farthest_points.hpp>
 
 #include "shape/arguments/arguments.hpp"
-#include "shape/point_file.hpp"
-#include "tool/commands/commands.hpp"
+#include "shape/result_files.hpp"
+#include "tool/app.hpp"
 #include "tool/commands/sampling_command.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_report.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -41,10 +41,7 @@ void run_farthest(const FarthestCommand& command) {
   FarthestOptions options;
   options.count = command.count == 0 ? std::numeric_limits<std::size_t>::max() : command.count;
   options.radius = command.radius;
-  options.progress = [&](double share) {
-    progress.done(share);
-    return true;
-  };
+  options.progress = progress.share_callback();
   progress.phase("looking for the farthest points");
   FarthestPoints found;
   std::vector<double> nearest;  // to the points found, where a picture shows it
@@ -70,13 +67,13 @@ void run_farthest(const FarthestCommand& command) {
   phases.end("write");
   progress.clear();
 
-  PointSummary summary(command, domain, found.points.size());
-  summary.json["covering"] = json_number(found.covering);
-  summary.table.add("covering", "no vertex is farther than " + short_number(found.covering));
-  report_picture(command.picture, domain, summary.json, summary.table);
-  for (std::string& far : far_notes(domain, arguments, start)) notes.add(std::move(far));
+  Summary summary = points_summary(command, domain, "points", found.points.size());
+  summary.add("covering", json_number(found.covering),
+              "no vertex is farther than " + short_number(found.covering));
+  report_picture(command.picture, domain, summary);
+  notes.add(far_notes(domain, arguments, start));
   add_parts_without(notes, domain, found.points, "points");
-  summary.finish(command, found.statistics, phases, notes);
+  finish(summary, command, found.statistics, phases, notes);
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <plexway/error.hpp>
 
 #include "shape/info/info_report.hpp"
 #include "shape/info/report.hpp"
-#include "tool/commands/commands.hpp"
+#include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
 
@@ -33,15 +34,15 @@ void run_info(const InfoCommand& command) {
       std::visit([&](const auto& shape) { return info_of(domain, shape); }, domain.data());
   progress.clear();
   Json json = {{"input", domain.file().string()}, {"kind", domain.kind_name()}};
-  add_file_report(domain, json);
-  json.update(report.json);
-  for (const std::string& note : domain.report().notes) json["warnings"].push_back(note);
   Table table;
   table.add("input", domain.file().string());
-  add_file_report(domain, table);
+  add_file_report(domain, json, table);
+  json.update(report.json);
   table.add(report.table);
-  if (json.contains("warnings"))
-    for (const Json& note : json["warnings"]) table.add("note", note.get<std::string>());
+  std::vector<std::string> warnings = report.warnings;
+  for (const std::string& note : domain.report().notes) warnings.push_back(note);
+  for (const std::string& warning : warnings) table.add("note", warning);
+  json["warnings"] = warnings;
   write_output(command.json ? json_text(json) : table.text());
   flush_output();
 }

@@ -17,13 +17,12 @@
 #include "shape/arguments/arguments.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/shape_state.hpp"
-#include "tool/commands/commands.hpp"
-#include "tool/exit_codes.hpp"
+#include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/options/picture_options.hpp"
 #include "tool/options/solve_options.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_report.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -123,17 +122,16 @@ double length_in_space(const Path& path) {
 }
 
 // What is printed: as JSON, and for people.
-void report(const PathCommand& command, const Domain& domain, const PathOutcome& outcome,
-            const Places& from, const Places& to, Json& json, Table& table) {
-  json["input"] = command.input;
-  json["kind"] = domain.kind_name();
+Summary summary_of(const PathCommand& command, const Domain& domain, const PathOutcome& outcome,
+                   const Places& from, const Places& to) {
+  Summary summary(command.input, domain.kind_name());
+  Json& json = summary.json;
+  Table& table = summary.table;
   json["vertices"] = domain.vertices();
   json["simplices"] = outcome.simplices;
   json["paths"] = Json::array();
-  table.add("input", command.input);
   if (!command.metric.text.empty()) table.add("metric", command.metric.text);
-  table.add(std::string(domain.kind_name()), counted(domain.vertices(), "vertices") + ", " +
-                                                 counted(outcome.simplices, domain.simplex_name()));
+  table.add(std::string(domain.kind_name()), size_text(domain, outcome.simplices));
   for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
     const Path& path = outcome.paths[k];
     const bool reached = path.source != none;
@@ -163,20 +161,16 @@ void report(const PathCommand& command, const Domain& domain, const PathOutcome&
   }
   add_accuracy(domain.kind(), outcome.accuracy, outcome.statistics, json);
   if (!command.metric.text.empty()) json["metric"] = command.metric.text;
-  json["seconds"]["load"] = domain.load_seconds();
-  if (domain.mesh_seconds()) json["seconds"]["mesh"] = *domain.mesh_seconds();
-  json["seconds"]["build"] = outcome.build;
-  json["seconds"]["solve"] = outcome.solve;
-  json["seconds"]["trace"] = outcome.trace;
+  summary.took_loading(domain);
+  summary.took("build", outcome.build);
+  summary.took("solve", outcome.solve);
+  summary.took("trace", outcome.trace);
   json["expansions"] = outcome.statistics.expansions;
   json["updates"] = outcome.statistics.updates;
   json["executor"] = outcome.executor;
   if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(outcome.triangulation);
   if (command.verbose) table.add("work", counted(outcome.statistics.expansions, "expansions"));
-  table.add("time", "load " + short_time(domain.load_seconds()) + ", build " +
-                        short_time(outcome.build) + ", solve " + short_time(outcome.solve) +
-                        ", trace " + short_time(outcome.trace));
-  add_written(table, {command.out, command.picture.file, command.picture.html});
+  return summary;
 }
 
 // Things the user should know about paths that were found.
@@ -294,20 +288,15 @@ void run_path(const PathCommand& typed) {
     write_picture(command.picture, mask ? domain.open_part(*mask) : domain, content, command.quiet);
   }
   progress.clear();
-  Json json;
-  Table table;
-  report(command, domain, outcome, {from, sources}, {to, targets}, json, table);
-  report_picture(command.picture, domain, json, table);
+  Summary summary = summary_of(command, domain, outcome, {from, sources}, {to, targets});
+  report_picture(command.picture, domain, summary);
   std::size_t unreached = 0;
   for (const Path& path : outcome.paths) unreached += path.source == none;
   Notes notes;
-  for (std::string& far : far_notes(domain, from, sources)) notes.add(std::move(far));
-  for (std::string& far : far_notes(domain, to, targets)) notes.add(std::move(far));
+  notes.add(far_notes(domain, from, sources));
+  notes.add(far_notes(domain, to, targets));
   notes.add(path_notes_on(outcome, sources, unreached));
-  notes.tell(json);
-  print_report(json, table, command.json, command.quiet,
-               {command.out, command.picture.file, command.picture.html});
-
+  summary.print(command, {command.out, command.picture.file, command.picture.html}, notes);
   if (unreached == outcome.paths.size())
     throw NothingReached(command.input + ": nothing reached: there is no path to any target");
   notes.say(command.quiet);

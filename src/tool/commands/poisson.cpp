@@ -8,11 +8,11 @@
 #include <plexway/sampling/poisson_disk.hpp>
 
 #include "io/number_rows.hpp"
-#include "shape/point_file.hpp"
-#include "tool/commands/commands.hpp"
+#include "shape/result_files.hpp"
+#include "tool/app.hpp"
 #include "tool/commands/sampling_command.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_report.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -68,10 +68,7 @@ void run_poisson(const PoissonCommand& command) {
   options.order = order;
   options.at_vertices = command.vertices;
   options.spacing = spacing;
-  options.progress = [&](double share) {
-    progress.done(share);
-    return true;
-  };
+  options.progress = progress.share_callback();
   progress.phase("throwing darts");
   PoissonDisks disks;
   Notes notes = with_sampled(domain, precision, [&](const auto& complex, const auto& numbers) {
@@ -90,31 +87,17 @@ void run_poisson(const PoissonCommand& command) {
   phases.end("write");
   progress.clear();
 
-  Json json;
-  json["input"] = command.input;
-  json["kind"] = domain.kind_name();
-  json["darts"] = disks.darts.size();
-  json["radius"] = disks.radius;
-  json["maximal"] = disks.maximal;
-  json["thrown"] = disks.thrown;
-  json["taken_back"] = disks.taken_back;
-  json["expansions"] = disks.statistics.expansions;
-  Table table;
-  table.add("input", command.input);
-  table.add("darts", counted(disks.darts.size(), "darts") + ", radius " +
-                         short_number(disks.radius) +
-                         (disks.maximal ? "" : "; a few more would find room"));
-  if (command.verbose)
-    table.add("work", counted(disks.thrown, "darts") + " thrown, " +
-                          counted(disks.statistics.expansions, "expansions"));
-  phases.tell(json, table);
-  report_picture(command.picture, domain, json, table);
-  add_written(table, {command.out, command.picture.file, command.picture.html});
+  Summary summary = points_summary(command, domain, "darts", disks.darts.size(),
+                                   ", radius " + short_number(disks.radius) +
+                                       (disks.maximal ? "" : "; a few more would find room"));
+  summary.json["radius"] = disks.radius;
+  summary.json["maximal"] = disks.maximal;
+  summary.json["thrown"] = disks.thrown;
+  summary.json["taken_back"] = disks.taken_back;
+  if (command.verbose) summary.table.add("thrown", counted(disks.thrown, "darts"));
+  report_picture(command.picture, domain, summary);
   add_parts_without(notes, domain, disks.darts, "darts");
-  notes.tell(json);
-  print_report(json, table, command.json, command.quiet,
-               {command.out, command.picture.file, command.picture.html});
-  notes.say(command.quiet);
+  finish(summary, command, disks.statistics, phases, notes);
 }
 
 }  // namespace

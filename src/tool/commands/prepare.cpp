@@ -10,11 +10,11 @@
 #include <plexway/error.hpp>
 
 #include "shape/info/report.hpp"
-#include "tool/commands/commands.hpp"
+#include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/options/solve_options.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_report.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -25,36 +25,6 @@ struct PrepareCommand : InputCommand {
   TriangulationArgument triangulation;
   int threads = 0;
 };
-
-Json prepare_json(const PrepareCommand& command, const AnyDomain& domain, std::uintmax_t bytes) {
-  Json json;
-  json["input"] = command.input;
-  json["out"] = command.out;
-  json["kind"] = domain.shape().kind_name();
-  json["vertices"] = domain.vertices();
-  json["simplices"] = domain.simplices();
-  json["precision"] = command.precision;
-  if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(domain.triangulation());
-  json["bytes"] = bytes;
-  json["seconds"] = {{"load", domain.shape().load_seconds()}, {"build", domain.build_seconds()}};
-  return json;
-}
-
-std::string prepare_text(const PrepareCommand& command, const AnyDomain& domain,
-                         std::uintmax_t bytes) {
-  Table table;
-  table.add("input", command.input);
-  table.add(std::string(kind_noun(domain.kind())),
-            counted(domain.vertices(), "vertices") + ", " +
-                counted(domain.simplices(), domain.shape().simplex_name()) + ", " +
-                command.precision);
-  if (domain.kind() == DomainKind::surface)
-    table.add("triangles", describe(domain.triangulation()));
-  table.add("time", "load " + short_time(domain.shape().load_seconds()) + ", build " +
-                        short_time(domain.build_seconds()));
-  table.add("written", command.out + " (" + counted(bytes, "bytes") + ")");
-  return table.text();
-}
 
 void run_prepare(const PrepareCommand& command) {
   constexpr std::array<std::string_view, 1> extensions = {".plexway"};
@@ -76,11 +46,21 @@ void run_prepare(const PrepareCommand& command) {
   std::error_code unknown;  // a pipe has no size
   std::uintmax_t bytes = std::filesystem::file_size(command.out, unknown);
   if (unknown) bytes = 0;
-  if (command.json)
-    write_output(json_text(prepare_json(command, domain, bytes)));
-  else if (!command.quiet)
-    write_output(prepare_text(command, domain, bytes));
-  flush_output();
+  Summary summary(command.input, shape.kind_name());
+  summary.json["out"] = command.out;
+  summary.json["vertices"] = domain.vertices();
+  summary.json["simplices"] = domain.simplices();
+  summary.json["precision"] = command.precision;
+  summary.table.add(std::string(kind_noun(domain.kind())),
+                    size_text(shape, domain.simplices()) + ", " + command.precision);
+  if (domain.kind() == DomainKind::surface) {
+    summary.json["triangulation"] = name_of(domain.triangulation());
+    summary.table.add("triangles", describe(domain.triangulation()));
+  }
+  summary.add("bytes", bytes, counted(bytes, "bytes"));
+  summary.took("load", shape.load_seconds());
+  summary.took("build", domain.build_seconds());
+  summary.print(command, {command.out});
 }
 
 }  // namespace

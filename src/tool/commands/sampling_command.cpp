@@ -8,9 +8,9 @@
 #include <plexway/source/point_source.hpp>
 
 #include "shape/warnings/survey.hpp"
-#include "tool/report/distance_report.hpp"
+#include "tool/report/summary.hpp"
 
-namespace plexway {
+namespace plexway::cli {
 
 namespace {
 
@@ -43,10 +43,6 @@ Parts parts_without(const AnyShape& shape, std::span<const PointSource> points) 
 
 }  // namespace
 
-}  // namespace plexway
-
-namespace plexway::cli {
-
 void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* out_help) {
   const OptionGroup add(app);
   add_input(app, command, "a surface, a solid or a cloud, as for 'plexway distance'");
@@ -74,24 +70,19 @@ void add_parts_without(Notes& notes, const Domain& domain, std::span<const Point
             ", or they went to larger ones; what lies there belongs to none");
 }
 
-PointSummary::PointSummary(const SamplingCommand& command, const Domain& domain,
-                           std::size_t points) {
-  json["input"] = command.input;
-  json["kind"] = domain.kind_name();
-  json["points"] = points;
-  table.add("input", command.input);
-  table.add("points", counted(points, "points"));
+Summary points_summary(const SamplingCommand& command, const Domain& domain,
+                       const std::string& name, std::size_t points, const std::string& more) {
+  Summary summary(command.input, domain.kind_name());
+  summary.add(name, points, counted(points, name) + more);
+  return summary;
 }
 
-void PointSummary::finish(const SamplingCommand& command, const PropagateStatistics& work,
-                          const Phases& phases, const Notes& notes) {
-  json["expansions"] = work.expansions;
-  if (command.verbose) table.add("work", counted(work.expansions, "expansions"));
-  phases.tell(json, table);
-  add_written(table, {command.out, command.picture.file, command.picture.html});
-  notes.tell(json);
-  print_report(json, table, command.json, command.quiet,
-               {command.out, command.picture.file, command.picture.html});
+void finish(Summary& summary, const SamplingCommand& command, const PropagateStatistics& work,
+            const Phases& phases, const Notes& notes) {
+  summary.json["expansions"] = work.expansions;
+  if (command.verbose) summary.table.add("work", counted(work.expansions, "expansions"));
+  phases.tell(summary);
+  summary.print(command, {command.out, command.picture.file, command.picture.html}, notes);
   notes.say(command.quiet);
 }
 

@@ -3,16 +3,17 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/solve/distance_field.hpp>
 
 #include <plexway/shape/complex.hpp>
-#include "shape/info/report.hpp"
 #include "tool/options/input.hpp"
 #include "tool/options/picture_options.hpp"
 #include "tool/options/solve_options.hpp"
-#include "tool/report/console.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 
@@ -23,6 +24,25 @@ struct SamplingCommand : InputCommand {
   bool precision_given = false;
   std::string accuracy;  ///< where the command has the option
   PictureArguments picture;
+};
+
+/// What a command did with its time: all of it, part after part.
+class Phases {
+ public:
+  /// A part ends, which began where the one before ended.
+  void end(std::string name) {
+    const double now = watch_.seconds();
+    parts_.emplace_back(std::move(name), now - before_);
+    before_ = now;
+  }
+  void tell(Summary& summary) const {
+    for (const auto& [name, seconds] : parts_) summary.took(name, seconds);
+  }
+
+ private:
+  Stopwatch watch_;
+  double before_ = 0;
+  std::vector<std::pair<std::string, double>> parts_;
 };
 
 inline constexpr const char* output_help = "; - for CSV on standard output";
@@ -74,14 +94,13 @@ Notes with_sampled(const Domain& domain, Precision precision, const Use& use) {
 void add_parts_without(Notes& notes, const Domain& domain, std::span<const PointSource> points,
                        std::string_view plural);
 
-/// A summary of so many points: what the commands say first, and what they say last.
-struct PointSummary {
-  Json json;
-  Table table;
+/// The summary of so many points, by this name.
+[[nodiscard]] Summary points_summary(const SamplingCommand& command, const Domain& domain,
+                                     const std::string& name, std::size_t points,
+                                     const std::string& more = "");
 
-  PointSummary(const SamplingCommand& command, const Domain& domain, std::size_t points);
-  void finish(const SamplingCommand& command, const PropagateStatistics& work, const Phases& phases,
-              const Notes& notes);
-};
+/// Adds the work and the time, prints it, and says the notes.
+void finish(Summary& summary, const SamplingCommand& command, const PropagateStatistics& work,
+            const Phases& phases, const Notes& notes);
 
 }  // namespace plexway::cli

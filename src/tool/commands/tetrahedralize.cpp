@@ -9,10 +9,10 @@
 #include "shape/fill.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/info/report.hpp"
-#include "tool/commands/commands.hpp"
+#include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_report.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 namespace {
@@ -36,27 +36,19 @@ void run_tetrahedralize(const TetrahedralizeCommand& command) {
   io::write_tets(command.out, solid);
   progress.clear();
   const SolidSurvey survey = survey_solid(domain);
-  Json json;
-  json["input"] = command.input;
-  json["out"] = command.out;
-  json["kind"] = domain.kind_name();
-  json["vertices"] = domain.vertices();
-  json["simplices"] = domain.simplices();
-  if (!domain.level_set_note().empty()) json["voxels"] = domain.level_set_note();
-  json["volume"] = json_number(survey.volume);
-  json["largest_volume"] = json_number(survey.largest_volume);
-  json["seconds"] = {{"load", domain.load_seconds()}, {"mesh", *domain.mesh_seconds()}};
-  Table table;
-  table.add("input", command.input);
-  if (!domain.level_set_note().empty()) table.add("voxels", domain.level_set_note());
-  table.add("solid", counted(domain.vertices(), "vertices") + ", " +
-                         counted(domain.simplices(), domain.simplex_name()));
-  table.add("volume", short_number(survey.volume) + ", largest tetrahedron " +
-                          short_number(survey.largest_volume));
-  table.add("time", "load " + short_time(domain.load_seconds()) + ", mesh " +
-                        short_time(*domain.mesh_seconds()));
-  add_written(table, {command.out});
-  print_report(json, table, command.json, command.quiet, {command.out});
+  Summary summary(command.input, domain.kind_name());
+  summary.json["out"] = command.out;
+  summary.json["vertices"] = domain.vertices();
+  summary.json["simplices"] = domain.simplices();
+  if (!domain.level_set_note().empty())
+    summary.add("voxels", domain.level_set_note(), domain.level_set_note());
+  summary.table.add("solid", size_text(domain, domain.simplices()));
+  summary.add(
+      "volume", json_number(survey.volume),
+      short_number(survey.volume) + ", largest tetrahedron " + short_number(survey.largest_volume));
+  summary.json["largest_volume"] = json_number(survey.largest_volume);
+  summary.took_loading(domain);
+  summary.print(command, {command.out});
 }
 
 }  // namespace

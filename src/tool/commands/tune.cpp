@@ -5,10 +5,10 @@
 #include <plexway/error.hpp>
 
 #include "shape/tuning/tuning_run.hpp"
-#include "tool/commands/commands.hpp"
+#include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_report.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 namespace {

@@ -5,14 +5,14 @@
 #include <plexway/io/page.hpp>
 #include <plexway/shape/support.hpp>
 
-#include "io/extension.hpp"
-#include "io/field/colour_map.hpp"
+#include "io/field/colours.hpp"
+#include "io/names.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/level_sets.hpp"
 #include "shape/scene.hpp"
 #include "tool/options/picture_options.hpp"
 #include "tool/report/console.hpp"
-#include "tool/report/distance_report.hpp"
+#include "tool/report/summary.hpp"
 
 #ifdef PLEXWAY_HAS_RENDER
 #include <plexway/render/picture.hpp>
@@ -24,29 +24,12 @@ namespace {
 constexpr std::array<std::string_view, 2> picture_extensions = {".png", ".svg"};
 constexpr std::array<std::string_view, 2> page_extensions = {".html", ".htm"};
 
-// Numbers between commas.
-std::vector<double> numbers(const std::string& option, const std::string& text,
-                            const std::string& expected) {
-  std::vector<double> found;
-  std::size_t at = 0;
-  while (true) {
-    const std::size_t end = std::min(text.find(',', at), text.size());
-    const std::string word = text.substr(at, end - at);
-    char* rest = nullptr;
-    const double number = std::strtod(word.c_str(), &rest);
-    if (word.empty() || *rest != '\0' || !std::isfinite(number))
-      throw UsageError(option + " '" + text + "': expected " + expected);
-    found.push_back(number);
-    if (end == text.size()) return found;
-    at = end + 1;
-  }
-}
-
+// Numbers between commas: so many, or any number of them for 0.
 std::vector<double> numbers(const std::string& option, const std::string& text, std::size_t count,
                             const std::string& expected) {
-  auto found = numbers(option, text, expected);
-  if (found.size() != count) throw UsageError(option + " '" + text + "': expected " + expected);
-  return found;
+  auto found = numbers_of(text, count);
+  if (!found) throw UsageError(option + " '" + text + "': expected " + expected);
+  return *std::move(found);
 }
 
 bool options_given(const PictureArguments& a) {
@@ -149,7 +132,7 @@ render::PictureOptions options_of(const PictureArguments& arguments) {
   }
   if (!arguments.clip.empty()) options.clip = clip_of(arguments.clip);
   if (!arguments.isosurfaces.empty())
-    options.isosurfaces = numbers("--isosurfaces", arguments.isosurfaces, "V,V,...");
+    options.isosurfaces = numbers("--isosurfaces", arguments.isosurfaces, 0, "V,V,...");
   check_up(arguments.up);
   if (!arguments.title.empty()) options.title = arguments.title;
   options.transparent = arguments.transparent;
@@ -202,12 +185,11 @@ char PictureArguments::up_of(const Domain& domain) const {
   return up.empty() ? probable_up(domain) : up[0];
 }
 
-void report_picture(const PictureArguments& arguments, const Domain& domain, Json& json,
-                    Table& table) {
+void report_picture(const PictureArguments& arguments, const Domain& domain, Summary& summary) {
   if (!arguments.wanted() || domain.positions().empty()) return;
   const std::string axis(1, arguments.up_of(domain));
-  json["up"] = axis;
-  table.add("up", axis + (arguments.up.empty() ? ", by the shape; --up says another axis" : ""));
+  summary.add("up", axis,
+              axis + (arguments.up.empty() ? ", by the shape; --up says another axis" : ""));
 }
 
 void check_picture(const PictureArguments& arguments, const std::string& input) {

@@ -9,8 +9,8 @@
 #include <plexway/any_domain.hpp>
 #include <plexway/shape/scene.hpp>
 
-#include "shape/info/report.hpp"
 #include "tool/options/input.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 
@@ -35,8 +35,7 @@ void add_picture_options(CLI::App& app, PictureArguments& arguments, bool cells 
 void check_picture(const PictureArguments& arguments, const std::string& input);
 
 /// Adds which axis points up to a report, where a picture is wanted of what has positions.
-void report_picture(const PictureArguments& arguments, const Domain& domain, Json& json,
-                    Table& table);
+void report_picture(const PictureArguments& arguments, const Domain& domain, Summary& summary);
 
 /// Draws and writes the picture, and the page. Throws as render::picture, render::write_png and
 /// io::write_page, and UsageError for a domain without positions. Says a note unless `quiet`.

@@ -119,24 +119,16 @@ void add_metric_option(CLI::App& command, MetricArgument& argument) {
       "lengths:FILE (vertex vertex length an edge); default: lengths in space");
 }
 
-static std::string name_of_metric(const MetricArgument& argument, const MeasuredLengths& lengths,
-                                  std::size_t refracting_edges) {
-  if (!lengths.speeds.empty()) return argument.text + "; refracts where speeds change";
-  return argument.text +
-         (refracting_edges > 0 ? "; refracts at " + counted(refracting_edges, "edges") : "");
-}
-
 void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
-                std::size_t refracting_edges, Json& json) {
+                std::size_t refracting_edges, Summary& summary) {
   if (lengths == nullptr) return;
-  json["metric"] = argument.text;
-  json["refracting_edges"] = refracting_edges;
-  json["violated"] = lengths->violations.count;
-}
-
-void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
-                std::size_t refracting_edges, Table& table) {
-  if (lengths != nullptr) table.add("metric", name_of_metric(argument, *lengths, refracting_edges));
+  summary.add("metric", argument.text,
+              argument.text + (!lengths->speeds.empty() ? "; refracts where speeds change"
+                               : refracting_edges > 0
+                                   ? "; refracts at " + counted(refracting_edges, "edges")
+                                   : ""));
+  summary.json["refracting_edges"] = refracting_edges;
+  summary.json["violated"] = lengths->violations.count;
 }
 
 void add_mask_option(CLI::App& command, MaskArgument& argument) {

@@ -13,6 +13,7 @@
 #include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"
 #include "tool/options/input.hpp"
+#include "tool/report/summary.hpp"
 
 namespace plexway::cli {
 
@@ -49,9 +50,7 @@ void add_metric_option(CLI::App& command, MetricArgument& argument);
 /// What a summary says: the metric, edges that refract, simplices whose lengths no triangle or
 /// tetrahedron has. `lengths` may be null: nothing then.
 void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
-                std::size_t refracting_edges, Json& json);
-void add_metric(const MetricArgument& argument, const MeasuredLengths* lengths,
-                std::size_t refracting_edges, Table& table);
+                std::size_t refracting_edges, Summary& summary);
 
 /// Adds --mask to a command.
 void add_mask_option(CLI::App& command, MaskArgument& argument);

@@ -68,11 +68,6 @@ void leave_nothing_behind() {
     if (std::signal(signal, end_by) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
-void Notes::say(bool quiet) const {
-  if (quiet) return;
-  for (const std::string& text : texts_) say_note(text);
-}
-
 ProgressLine::ProgressLine(bool quiet)
     : quiet_(quiet), shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
 

@@ -4,14 +4,10 @@
 #include <functional>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include <plexway/shape/warnings.hpp>
 #include <plexway/solve/options.hpp>
 
 #include "file/standard_output.hpp"
-#include "shape/info/report.hpp"
-#include "shape/stopwatch.hpp"
 
 namespace plexway::cli {
 
@@ -40,26 +36,6 @@ void ignore_signals_of_writing();
 /// Has SIGINT, SIGTERM and SIGHUP, where they are not ignored, remove temporary files before they
 /// end the process as usual.
 void leave_nothing_behind();
-
-/// What the user should know of a command's result though nothing failed: "notes" of its report,
-/// and a line each.
-class Notes {
- public:
-  void add(std::string text) { texts_.push_back(std::move(text)); }
-  void add(const std::vector<Warning>& warnings) {
-    for (const Warning& warning : warnings) texts_.push_back(warning.text);
-  }
-  void add(const Notes& more) {
-    texts_.insert(texts_.end(), more.texts_.begin(), more.texts_.end());
-  }
-  /// The array `notes`, empty where there are none.
-  void tell(Json& json) const { json["notes"] = texts_; }
-  /// On standard error; nothing where `quiet`.
-  void say(bool quiet) const;
-
- private:
-  std::vector<std::string> texts_;
-};
 
 /// One line on stderr that is overwritten as work goes on, and wiped at the end.
 ///

@@ -1,4 +1,4 @@
-#include "tool/report/help_pages.hpp"
+#include "tool/app.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,8 +9,6 @@
 
 #include <plexway/error.hpp>
 #include <plexway/version.hpp>
-
-#include "tool/exit_codes.hpp"
 
 namespace plexway::cli {
 namespace {
