@@ -75,7 +75,7 @@ void check_names(const MatrixCommand& command) {
     if (on_standard_output(*out))
       throw UsageError(std::string(option) +
                        " -: pairs go to a file, not standard output, so that a run that was "
-                       "stopped can go on: name one, such as pairs.csv");
+                       "stopped can go on: name one");
   check_output_name(command.out, command.input,
                     sparse                   ? io::SparseFile::extensions()
                     : command.labels.empty() ? std::span<const std::string_view>(dense_files)
