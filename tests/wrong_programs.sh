@@ -1,6 +1,6 @@
 #!/bin/sh
 # Programs of users that are wrong, and what the compilers say: each ends in one error, a sentence
-# that tells what to write.
+# that tells what to write. Then those of README.md, which are right.
 #   tests/wrong_programs.sh COMPILER HEADERS...           compares with tests/wrong_programs/NAME.txt
 #   tests/wrong_programs.sh --keep COMPILER HEADERS...    writes it
 # COMPILER is one of g++ and clang++. Of another version than NAME.txt was kept by, the sentences
@@ -56,4 +56,20 @@ if [ "$programs" -lt 10 ] || [ "$programs" != "$lines" ] || grep -q '^  compiles
   echo "wrong programs: $lines errors of $programs programs" >&2
   exit 1
 fi
-echo "wrong programs: $programs, each with one error by $name"
+# And the programs that users read first are right ones.
+for page in README.md docs/reference/cpp.md; do
+  program="$(mktemp --suffix .cpp)"
+  trap 'rm -f "$said" "$said.kept" "$said.now" "$program"' EXIT
+  block="$(sed -n '/^```cpp$/,/^```$/p' "$here/../../$page" | grep -v '^```')"
+  {
+    echo '#include <iostream>'
+    printf '%s\n' "$block" | grep '^#include'
+    echo '#include <plexway/shape/warnings.hpp>'
+    echo 'int main() {'
+    printf '%s\n' "$block" | grep -v '^#include'
+    echo '}'
+  } >"$program"
+  # shellcheck disable=SC2086
+  "$compiler" -std=c++20 -fsyntax-only $include "$program"
+done
+echo "wrong programs: $programs, each with one error by $name; those of README.md compile"

@@ -57,6 +57,8 @@ TEST_CASE("a face with a corner twice is left out and counted, and numbers stay"
   CHECK(solved(file, "point:1,0.5,0").distance[3] == Approx(std::hypot(1, .5)));
   const auto info = run_tool({"info", file, "--json"});
   CHECK(info.json()["dropped_simplices"] == 1);
+  CHECK(info.json()["slender_share"] == 0);
+  CHECK(info.json()["edge_length"]["min"] == 1);
   check_refused({"distance", file, "-s", "vertex:0", "--strict"}, 3,
                 "has a corner twice and is left out, which --strict refuses");
   const std::string none = folder.write("none.obj", square + "f 2 2 3\nf 1 1 1\n");
@@ -115,6 +117,7 @@ TEST_CASE("solids, simplices and mixed domains leave such cells out as well") {
   const std::string file = folder.write("a.mesh", medit);
   const Solved solid = solved(file);
   CHECK(solid.json["dropped_simplices"] == 1);
+  CHECK(run_tool({"info", file, "--json"}).json()["slender_share"] == 0);
   CHECK(solid.json["passed_over"]["triangles"] == 2);
   CHECK(solid.distance[4] == Approx(std::sqrt(12)));
   const auto mixed = run_tool({"distance", file, "--as", "mixed", "-s", "vertex:0", "--json"});
