@@ -54,8 +54,11 @@ SolidSurvey survey_solid(const AnyShape& domain) {
   SolidSurvey survey;
   survey.box = bounding_box(solid.positions);
   survey.edge = spread_of(lengths_of(edges_of(domain)));
-  std::size_t slender = 0;
-  for (const auto& tet : solid.tets) {
+  std::size_t slender = 0, measured = 0;
+  for (std::array<std::uint32_t, 4> tet : solid.tets) {
+    std::sort(tet.begin(), tet.end());
+    if (std::adjacent_find(tet.begin(), tet.end()) != tet.end()) continue;  // left out
+    ++measured;
     std::array<Vector, 4> corners;
     for (std::size_t i = 0; i < 4; ++i) corners[i] = solid.positions[tet[i]];
     const Measure found = measure(corners);
@@ -63,7 +66,7 @@ SolidSurvey survey_solid(const AnyShape& domain) {
     survey.largest_volume = std::max(survey.largest_volume, found.volume);
     if (found.slender) ++slender;
   }
-  survey.slender_share = static_cast<double>(slender) / static_cast<double>(solid.tets.size());
+  survey.slender_share = static_cast<double>(slender) / static_cast<double>(measured);
   survey.coincident_vertices = count_coincident(domain);
   return survey;
 }
@@ -79,7 +82,7 @@ std::vector<std::string> solid_warnings(const SolidSummary& summary, const Solid
        " where separate parts of the solid touch in one point only");
   if (summary.components > 1) warnings.push_back(components_warning(summary.components));
   warn(summary.unreferenced_vertices, "unreferenced vertices",
-       " in no tetrahedron, so they get inf");
+       " in no tetrahedron: unreachable (inf)");
   warn(survey.coincident_vertices, "vertices",
        " exactly where another one lies: if the two sides of a cut have their own vertices, paths "
        "go round it; --merge 0 joins them");

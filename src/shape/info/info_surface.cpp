@@ -52,8 +52,11 @@ SurfaceSurvey survey_surface(const io::Triangles& surface) {
   SurfaceSurvey survey;
   survey.box = bounding_box(surface.positions);
   double sum = 0;
-  std::size_t slender = 0;
+  std::size_t slender = 0, measured = 0;
   for (const auto& corners : surface.triangles) {
+    const auto& [a, b, c] = corners;
+    if (a == b || b == c || c == a) continue;  // left out
+    ++measured;
     std::array<double, 3> side;
     for (std::size_t i = 0; i < 3; ++i) {
       side[i] = length(surface.positions[corners[i]], surface.positions[corners[(i + 1) % 3]]);
@@ -63,7 +66,7 @@ SurfaceSurvey survey_surface(const io::Triangles& surface) {
     }
     if (is_slender(side)) ++slender;
   }
-  const auto triangles = static_cast<double>(surface.triangles.size());
+  const auto triangles = static_cast<double>(measured);
   survey.edge.mean = sum / (3 * triangles);
   survey.slender_share = static_cast<double>(slender) / triangles;
   return survey;
@@ -83,7 +86,8 @@ std::vector<std::string> surface_warnings(const SurfaceSummary& summary,
   warn(summary.pinched_vertices, "pinched vertices",
        " where separate parts of the surface touch in one point only");
   if (summary.components > 1) warnings.push_back(components_warning(summary.components));
-  warn(summary.unreferenced_vertices, "unreferenced vertices", " in no triangle, so they get inf");
+  warn(summary.unreferenced_vertices, "unreferenced vertices",
+       " in no triangle: unreachable (inf)");
   warn(coincident, "vertices",
        " exactly where another one lies: if the two sides of a seam have their own vertices, the "
        "surface is cut along it and paths go round; --merge 0 joins them");

@@ -14,7 +14,7 @@ std::vector<std::string> wireframe_warnings(const WireframeSummary& summary,
     if (count > 0) warnings.push_back(counted(count, plural) + meaning);
   };
   if (summary.components > 1) warnings.push_back(components_warning(summary.components));
-  warn(summary.unreferenced_vertices, "unreferenced vertices", " in no edge, so they get inf");
+  warn(summary.unreferenced_vertices, "unreferenced vertices", " in no edge: unreachable (inf)");
   warn(coincident, "vertices",
        " exactly where another one lies: edges that meet there are joined only if they name the "
        "same vertex; --merge 0 joins them");
