@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <plexway/common/detail/on_demand.hpp>
 #include <plexway/common/ids.hpp>
 
 #include "complexes/common/box_tree.hpp"
@@ -90,21 +91,19 @@ struct FaceGate {
   typename BendingFace<N>::Along middle;  ///< of what they share
 };
 
-/// A complex of dimension N in R^N that does not overlap itself: its vertices and centroids as
-/// points, about the middle and in units of the mean edge, and the faces on which paths bend.
+/// A complex of dimension N in R^N that does not overlap itself: its vertices as points, about the
+/// middle and in units of the mean edge, and the faces on which paths bend.
 template <int N>
 struct FlatDomain {
   using Point = std::array<double, N>;
 
   std::vector<Point> positions;       ///< by the numbers inside
-  std::vector<Point> centres;         ///< of simplices
   std::vector<BendingFace<N>> faces;  ///< those that are gates come last
   std::vector<BendingRim<N>> rims;
   BoxTree<N> tree;                 ///< over faces but gates
   std::vector<FaceGate<N>> gates;  ///< by `from`
-  std::vector<Index> corners;      ///< vertices on faces, ascending
   double rounding;                 ///< coordinates and what is derived from them are good to this
-  double clearance;  ///< bends are held so far off their face, which `rounding` cannot undo
+  OnDemand space;                  ///< what strings know of it (src/strings)
 
   [[nodiscard]] std::span<const BendingRim<N>> rims_of(const BendingFace<N>& face) const {
     return std::span(rims).subspan(face.rims_begin, face.rims_end - face.rims_begin);
@@ -115,52 +114,10 @@ struct FlatDomain {
       if (inner(rim.outward, a) > rim.reach + slack) return false;
     return true;
   }
-  /// Out of a simplex.
-  [[nodiscard]] std::span<const FaceGate<N>> gates_of(Index s) const {
-    const auto begin = std::partition_point(gates.begin(), gates.end(),
-                                            [s](const FaceGate<N>& g) { return g.from < s; });
-    const auto end =
-        std::partition_point(begin, gates.end(), [s](const FaceGate<N>& g) { return g.from == s; });
-    return std::span(gates).subspan(static_cast<std::size_t>(begin - gates.begin()),
-                                    static_cast<std::size_t>(end - begin));
-  }
-  /// Where a string that bends at `a` is held: off the face and not quite at its rim, so that what
-  /// it touches there and what it passes can be told apart. In a gate there is no room.
-  [[nodiscard]] Point held(const BendingFace<N>& face, typename BendingFace<N>::Along a) const {
-    const double margin = 8 * clearance;
-    for (const BendingRim<N>& rim : rims_of(face)) {
-      const double over = inner(rim.outward, a) - (rim.reach - margin);
-      if (over > 0) a = plus(a, -over, rim.outward);
-    }
-    return face.gate ? face.at(a) : plus(face.at(a), -clearance, face.into);
-  }
-  /// From one point to another near a vertex, past the obstacles that meet in the vertex?
-  [[nodiscard]] bool passes_by(const Point& vertex, const Point& from, const Point& to) const {
-    bool free = true;
-    const auto meets = [&](const Box<N>& box) {
-      for (std::size_t d = 0; d < N; ++d)
-        if (vertex[d] < box.low[d] || vertex[d] > box.high[d]) return false;
-      return true;
-    };
-    tree.search(meets, [&](Index f) {
-      const BendingFace<N>& face = faces[f];
-      const auto side = [&](const Point& p) { return inner(p, face.side) - face.origin_side; };
-      const auto into = [&](const Point& p) { return inner(p, face.into) - face.origin_into; };
-      if (std::abs(side(vertex)) > clearance || std::abs(into(vertex)) > clearance ||
-          !holds(face, face.along_of(vertex), clearance))
-        return;
-      const double s = side(from), t = side(to);
-      if ((s > rounding && t > rounding) || (s < -rounding && t < -rounding)) return;
-      const double at =
-          s == t ? std::max(into(from), into(to)) : (into(from) * t - into(to) * s) / (t - s);
-      free = free && at < -rounding;
-    });
-    return free;
-  }
   [[nodiscard]] std::size_t bytes() const {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    return sizeof(*this) + of(positions) + of(centres) + of(faces) + of(rims) + of(corners) +
-           of(gates) + tree.bytes();
+    return sizeof(*this) + of(positions) + of(faces) + of(rims) + of(gates) + tree.bytes() +
+           space.bytes();
   }
 };
 

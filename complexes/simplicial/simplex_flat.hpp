@@ -83,13 +83,12 @@ class FlatDomainBuilder {
     }
     for (Point& p : domain_->positions) p = minus(p, middle);
     domain_->rounding = 1e-13 + 1e-14 * extent;
-    domain_->clearance = std::max(1e-9, 1e3 * domain_->rounding);
-    domain_->centres.reserve(records_.size());
-    for (const Record& r : records_) {
-      Point c{};
-      for (const Index v : r.corner) c = plus(c, 1. / (N + 1), position(v));
-      domain_->centres.push_back(c);
-    }
+  }
+
+  [[nodiscard]] Point centre(const Record& r) const {
+    Point c{};
+    for (const Index v : r.corner) c = plus(c, 1. / (N + 1), position(v));
+    return c;
   }
 
   /// N! times the signed volume, as a share of the longest edge to the power N.
@@ -285,14 +284,10 @@ class FlatDomainBuilder {
       Box<N> box = Box<N>::empty();
       if constexpr (K == 0) box.add(face.origin);
       for (const Rim& rim : domain_->rims_of(face)) box.add(face.at(rim.from));
-      box.widen(4 * domain_->clearance);
+      box.widen(std::max(4e-9, 4e3 * domain_->rounding));
       boxes.push_back(box);
     }
     domain_->tree = BoxTree<N>(boxes);
-    std::vector<Index>& corners = domain_->corners;
-    for (const Wedge& w : wedges_) corners.insert(corners.end(), w.corner.begin(), w.corner.end());
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   }
 
   /// Keeps the corners of the convex hull, in order, and gives its measure.
@@ -450,7 +445,7 @@ class FlatDomainBuilder {
     constexpr std::size_t samples = 256;
     const std::size_t stride = records_.size() / samples + 1;
     for (std::size_t s = 0; s < records_.size(); s += stride)
-      probes.push_back({domain_->centres[s], static_cast<Index>(s)});
+      probes.push_back({centre(records_[s]), static_cast<Index>(s)});
     std::vector<Box<N>> boxes;
     for (const Probe& probe : probes) boxes.push_back({probe.at, probe.at});
     const BoxTree<N> tree(boxes);

@@ -9,11 +9,14 @@
 #include <utility>
 
 #include <plexway/error.hpp>
+#include <plexway/solid/tet_mesh.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
 
 #include "complexes/common/disjoint_sets.hpp"
 #include "complexes/common/fill_rows.hpp"
 #include "complexes/common/number_range.hpp"
 #include "complexes/common/simplex_gluing.hpp"
+#include "complexes/simplicial/laid_out.hpp"
 #include "complexes/simplicial/simplex_flat.hpp"
 #include "complexes/simplicial/simplex_shape.hpp"
 
@@ -154,7 +157,8 @@ SimplicialComplex<Real, N>::SimplicialComplex(std::span<const double> positions,
       }
   assemble(positions.size() / axes, simplices, std::move(lengths));
   if constexpr (N > 1)
-    if (axes == N && summary_.fan_facets == 0) lay_flat(positions);
+    if (summary_.fan_facets == 0)
+      if (const auto laid = laid_out<N>(positions, axes, simplices)) lay_flat(*laid, simplices);
   if (N > 1 && !summary_.flat) keep_coordinates(positions, axes);
 }
 
@@ -169,17 +173,27 @@ void SimplicialComplex<Real, N>::keep_coordinates(std::span<const double> positi
 }
 
 template <class Real, int N>
-void SimplicialComplex<Real, N>::lay_flat(std::span<const double> positions) {
+void SimplicialComplex<Real, N>::lay_flat(std::span<const double> positions,
+                                          std::span<const Corners> simplices) {
   if constexpr (N > 1) {
     std::vector<std::array<double, N>> points(vertex_count());
     for (std::size_t v = 0; v < points.size(); ++v)
       for (std::size_t d = 0; d < N; ++d)
         points[vertex_to_inside_[v]][d] = positions[N * v + d] / unit();
-    flat_ = FlatDomainBuilder<Real, N>(records_, std::move(points)).build();
-    summary_.flat = flat_ != nullptr;
-    if (!flat_) return;
+    const auto domain = FlatDomainBuilder<Real, N>(records_, std::move(points)).build();
+    summary_.flat = domain != nullptr;
+    if (!domain) return;
     summary_.bending_faces = static_cast<std::size_t>(std::count_if(
-        flat_->faces.begin(), flat_->faces.end(), [](const auto& face) { return !face.gate; }));
+        domain->faces.begin(), domain->faces.end(), [](const auto& face) { return !face.gate; }));
+    if constexpr (N == 4) {
+      flat_ = domain;
+    } else {
+      std::vector<std::array<double, 3>> in_space(vertex_count(), {0, 0, 0});
+      for (std::size_t v = 0; v < in_space.size(); ++v)
+        std::copy_n(&positions[N * v], N, in_space[v].begin());
+      flat_ = std::make_shared<FlatForm<N>>(std::span<const std::array<double, 3>>(in_space),
+                                            simplices);
+    }
   }
 }
 

@@ -2,8 +2,36 @@
 #include "executors/drive.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_simplicial.hpp"
+#include "strings/flat_strings.hpp"
 
 namespace plexway {
+
+PLEXWAY_ELSEWHERE(Serial, TriangleMesh<double>)
+PLEXWAY_ELSEWHERE(Serial, TetMesh<double>)
+
+namespace {
+
+/// As the surface or the solid that a flat complex of two or three dimensions is. By one thread;
+/// `solve_each` takes one a source.
+template <class Real, class Mesh>
+void solve_as(const Mesh& mesh, std::span<const PointSource> sources,
+              const PropagateOptions& options, WorkspaceState<Real>& workspace,
+              DistanceField<Real>& field) {
+  PropagateOptions exactly = options;
+  exactly.accuracy = Mesh::dimension == 2 ? Accuracy::exact() : Accuracy::accurate();
+  exactly.schedule = Schedule::dual_queue;
+  exactly.step = PropagateOptions().step;
+  exactly.vectorised = true;
+  if (!workspace.flat) workspace.flat = std::make_shared<FlatSolve>();
+  DistanceField<double>& found = workspace.flat->field;
+  solve(Serial{}, mesh, sources, exactly, workspace.flat->workspace, found);
+  field.distance.assign(found.distance.begin(), found.distance.end());
+  field.label = found.label;
+  field.statistics = found.statistics;
+  field.complete = found.complete;
+}
+
+}  // namespace
 
 template <class E, class Real, int N>
 void solve_points(const E& executor, const SimplicialComplex<Real, N>& domain,
@@ -11,6 +39,17 @@ void solve_points(const E& executor, const SimplicialComplex<Real, N>& domain,
                   Workspace<Real>& kept, DistanceField<Real>& field) {
   WorkspaceState<Real>& workspace = kept.state();
   check(sources, options, domain);
+  if constexpr (N > 1)
+    if (options.visibility == Visibility::saddles && domain.flat()) {
+      if constexpr (E::kind == ExecutorKind::openmp) const Team team(executor);  // may refuse
+      if constexpr (N < 4) {
+        solve_as(*domain.flat(), sources, options, workspace, field);
+      } else {
+        if (!workspace.flat_strings) workspace.flat_strings = std::make_shared<FlatStrings>();
+        workspace.flat_strings->solve(domain, sources, options, field);
+      }
+      return;
+    }
   drive<true>(executor, domain, sources, options, workspace,
               [&](auto queue, const auto& scheduler) {
                 simplicial::solve(domain, sources, options, workspace, queue, scheduler, field);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -15,7 +14,6 @@
 #include "labels/finish.hpp"
 #include "labels/simplicial/simplex_propagation.hpp"
 #include "labels/simplicial/simplex_rule.hpp"
-#include "labels/simplicial/simplex_string_rule.hpp"
 #include "labels/wavefront.hpp"
 
 /// A solve on a complex of any dimension, for any scheduler.
@@ -23,10 +21,9 @@ namespace plexway::simplicial {
 
 /// The least that the simplices at a vertex offer; then the sources and the corners of simplices
 /// they lie in, exactly.
-template <class Real, int N, class Rule, class Front, class Scheduler>
+template <class Real, int N, class Rule, class Front>
 void read_out(const SimplicialComplex<Real, N>& domain, std::span<const PointSource> sources,
-              const Rule& rule, const Front& front, const Scheduler& scheduler,
-              WorkspaceState<Real>& workspace) {
+              const Rule& rule, const Front& front, WorkspaceState<Real>& workspace) {
   workspace.vertex.assign(domain.vertex_count(), std::numeric_limits<Real>::infinity());
   workspace.vertex_source.assign(domain.vertex_count(), none);
   const auto offer = [&](Index v, Real d, Index number) {
@@ -34,24 +31,10 @@ void read_out(const SimplicialComplex<Real, N>& domain, std::span<const PointSou
     workspace.vertex[v] = d;
     workspace.vertex_source[v] = number;
   };
-  if constexpr (requires(Real d, Index n) { rule.read_vertex(0, d, n); }) {
-    scheduler.over(domain.vertex_count(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v)
-        rule.read_vertex(static_cast<Index>(v), workspace.vertex[v], workspace.vertex_source[v]);
-    });
-  } else if constexpr (requires { scheduler.team(); }) {
-    scheduler.over(domain.vertex_count(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v)
-        for (const Index c : domain.corners_at(static_cast<Index>(v)))
-          if (const Index s = c / (N + 1); front.reached(s))
-            offer(static_cast<Index>(v), rule.corner_distance(s, c % (N + 1)), front.source(s));
-    });
-  } else {
-    for (Index s = 0; s < domain.simplex_count(); ++s)
-      if (front.reached(s))
-        for (std::size_t i = 0; i <= N; ++i)
-          offer(domain.records()[s].corner[i], rule.corner_distance(s, i), front.source(s));
-  }
+  for (Index s = 0; s < domain.simplex_count(); ++s)
+    if (front.reached(s))
+      for (std::size_t i = 0; i <= N; ++i)
+        offer(domain.records()[s].corner[i], rule.corner_distance(s, i), front.source(s));
   for (std::size_t n = 0; n < sources.size(); ++n) {
     const double sigma = sources[n].offset / domain.unit();
     const Index number = static_cast<Index>(n);
@@ -148,61 +131,34 @@ std::size_t raise_to_lines(const SimplicialComplex<Real, N>& domain,
   return raised;
 }
 
-/// Which rule a domain is solved by: one place decides. Where the domain lies flat (FlatDomain) and
-/// the policy is `saddles`, the default, strings that know their bends; else the plain step.
-template <class Real, int N, class Queue, class Solve>
-void with_rule(const SimplicialComplex<Real, N>& domain, const PropagateOptions& options,
-               WorkspaceState<Real>& workspace, const Solve& solve) {
-  if constexpr (N > 1)
-    if (options.visibility == Visibility::saddles && domain.flat()) {
-      using Front = Wavefront<Real, SimplexStringLabel<N>, Queue, true>;
-      solve.template operator()<Front>([&](Front& front) {
-        const std::size_t vertices = domain.vertex_count();
-        SimplexVertexWay<N>* const ways =
-            workspace.simplex.template reserve<SimplexVertexWay<N>>(vertices);
-        for (std::size_t v = 0; v < vertices; ++v) ways[v].forget();
-        return SimplexStringRule<Real, N, Front>(domain, front, ways,
-                                                 &workspace.simplex.template telling<N>());
-      });
-      return;
-    }
-  using Front = Wavefront<Real, SimplexLabel<Real, N>, Queue, true>;
-  solve.template operator()<Front>([&](Front& front) {
-    return PlainSimplexRule<Real, N, Front>(domain.records().data(), front, options.visibility);
-  });
-}
-
-/// One solve with a queue of its own.
+/// One solve by the plain step, with a queue of its own.
 template <class Real, int N, class Queue, class Scheduler>
 void solve(const SimplicialComplex<Real, N>& domain, std::span<const PointSource> sources,
            const PropagateOptions& options, WorkspaceState<Real>& workspace, Queue queue,
            const Scheduler& scheduler, DistanceField<Real>& field) {
   const std::size_t simplices = domain.simplex_count();
   workspace.start(simplices, true);
-  with_rule<Real, N, Queue>(domain, options, workspace, [&]<class Front>(const auto& make_rule) {
-    using Label = typename Front::Label;
-    Front front(workspace.marks, workspace.simplex.template reserve<Label>(simplices), queue,
-                workspace.source.data(), simplices, domain.unit(), options);
-    const auto rule = make_rule(front);
-    SimplexPropagation<Real, N, std::decay_t<decltype(rule)>, Front> propagation(domain, rule,
-                                                                                 front, options);
-    for (std::size_t n = 0; n < sources.size(); ++n)
-      propagation.seed(sources[n], static_cast<Index>(n));
-    scheduler.run(propagation, front, simplices);
-    read_out(domain, sources, rule, front, scheduler, workspace);
-    // The policies that study the step itself show it as it is, on surfaces too.
-    std::size_t raised = 0;
-    if (options.visibility == Visibility::saddles) {
-      relax_edges(domain, workspace);
-      raised = raise_to_lines(domain, sources, workspace);
-    }
-
-    if (sources.size() > 1)
-      finish<Real, true>(domain, sources, options, front, workspace, scheduler, field);
-    else
-      finish<Real, false>(domain, sources, options, front, workspace, scheduler, field);
-    field.statistics.raised_vertices = raised;
-  });
+  using Front = Wavefront<Real, SimplexLabel<Real, N>, Queue, true>;
+  Front front(workspace.marks, workspace.simplex.template reserve<N>(simplices), queue,
+              workspace.source.data(), simplices, domain.unit(), options);
+  const PlainSimplexRule<Real, N, Front> rule(domain.records().data(), front, options.visibility);
+  SimplexPropagation<Real, N, PlainSimplexRule<Real, N, Front>, Front> propagation(domain, rule,
+                                                                                   front, options);
+  for (std::size_t n = 0; n < sources.size(); ++n)
+    propagation.seed(sources[n], static_cast<Index>(n));
+  scheduler.run(propagation, front, simplices);
+  read_out(domain, sources, rule, front, workspace);
+  // The policies that study the step itself show it as it is, on surfaces too.
+  std::size_t raised = 0;
+  if (options.visibility == Visibility::saddles) {
+    relax_edges(domain, workspace);
+    raised = raise_to_lines(domain, sources, workspace);
+  }
+  if (sources.size() > 1)
+    finish<Real, true>(domain, sources, options, front, workspace, scheduler, field);
+  else
+    finish<Real, false>(domain, sources, options, front, workspace, scheduler, field);
+  field.statistics.raised_vertices = raised;
 }
 
 }  // namespace plexway::simplicial

@@ -1,6 +1,7 @@
 #include <plexway/solve/workspace.hpp>
 
 #include "labels/workspace_state.hpp"
+#include "strings/flat_strings.hpp"
 #include "strings/mixed_strings.hpp"
 #include "strings/solid_strings.hpp"
 
@@ -22,6 +23,7 @@ template <class Real>
 std::size_t Workspace<Real>::bytes() const {
   if (!state_) return 0;
   return state_->bytes() + (state_->strings ? state_->strings->bytes() : 0) +
+         (state_->flat_strings ? state_->flat_strings->bytes() : 0) +
          (state_->media ? state_->media->bytes() : 0);
 }
 

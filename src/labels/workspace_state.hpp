@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <plexway/common/ids.hpp>
+#include <plexway/solve/distance_field.hpp>
 #include <plexway/solve/workspace.hpp>
 
 #include "labels/front.hpp"
@@ -20,8 +21,15 @@
 
 namespace plexway {
 
+class FlatStrings;
 class MixedStrings;
 class SolidStrings;
+
+/// Of the surface or solid that a flat complex is solved as.
+struct FlatSolve {
+  Workspace<double> workspace;
+  DistanceField<double> field;
+};
 
 /// All that a propagation changes, in the open.
 template <class Real>
@@ -49,7 +57,9 @@ struct WorkspaceState {
   std::vector<WorkspaceState> parts;
   std::vector<Real> offered;
   ///@}
-  std::shared_ptr<MixedStrings> media;  ///< likewise, by strings: strings/mixed_strings.hpp
+  std::shared_ptr<MixedStrings> media;        ///< likewise, by strings: strings/mixed_strings.hpp
+  std::shared_ptr<FlatSolve> flat;            ///< flat complexes of two or three dimensions
+  std::shared_ptr<FlatStrings> flat_strings;  ///< of four: strings/flat_strings.hpp
 
   /// Room for a front and marks over so many simplices and a sentinel behind them; all unreached
   /// but the sentinel, which nothing can improve.
@@ -68,7 +78,8 @@ struct WorkspaceState {
     return of_parts + of(offered) + sizeof(*this) + marks.bytes() +
            saddles.count * sizeof(SaddleLabel<Real>) + plain.count * sizeof(PlainLabel<Real>) +
            solids.count * sizeof(SolidLabel<Real>) +
-           plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() + of(source) +
+           plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() +
+           (flat ? flat->workspace.bytes() + of(flat->field.distance) : 0) + of(source) +
            windows.bytes() + of(vertex) + of(vertex_source) + of(corners) +
            (lowering ? sizeof(*lowering) + lowering->bytes() : 0) +
            front.capacity * 2 * sizeof(Index) + of(front.heap) + pieces.bytes();

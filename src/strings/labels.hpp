@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include <plexway/common/ids.hpp>
@@ -12,16 +13,27 @@
 /// What vertices know of the strings that reach them.
 namespace plexway::strings {
 
-/// A string to a vertex.
-struct Label {
+/// Of unit vectors.
+inline double cosine_of(const Point& a, const Point& b) { return dot(a, b); }
+template <std::size_t N>
+double cosine_of(const std::array<double, N>& a, const std::array<double, N>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.);
+}
+
+/// A string to a vertex; `P` is a point of its space.
+template <class P>
+struct LabelIn {
   double distance = std::numeric_limits<double>::infinity();
   Index chain = none;
-  Point last = {0, 0, 0};  ///< its last leg's direction, unit: the field's gradient
+  P last = {};  ///< its last leg's direction, unit: the field's gradient
 };
+using Label = LabelIn<Point>;
 
 /// A vertex keeps the shortest strings that come to it from different sides: one that is not much
 /// longer than the shortest may be the shortest of a neighbour.
-struct VertexLabels {
+template <class P>
+struct VertexLabelsIn {
+  using Label = LabelIn<P>;
   static constexpr std::size_t most = 2;
   static constexpr std::size_t remembered = 6;
   static constexpr double same_side = .99;  ///< cosine between the last legs of two strings
@@ -29,7 +41,7 @@ struct VertexLabels {
   std::array<Index, remembered> tried;      ///< chains of late
   Index next = 0;
 
-  VertexLabels() { tried.fill(none); }
+  VertexLabelsIn() { tried.fill(none); }
   [[nodiscard]] const Label& best() const { return labels[0]; }
   /// The label, if it is still one of the vertex.
   [[nodiscard]] const Label* find(Index chain, double distance) const {
@@ -49,10 +61,10 @@ struct VertexLabels {
     next = (next + 1) % remembered;
   }
   /// Strings as long as this, that end in this direction, are of no use.
-  [[nodiscard]] double limit(double behind, const Point& last, double cosine = same_side) const {
+  [[nodiscard]] double limit(double behind, const P& last, double cosine = same_side) const {
     double limit = std::min(best().distance + behind, labels[most - 1].distance);
     for (const Label& l : labels)
-      if (dot(l.last, last) >= cosine) limit = std::min(limit, l.distance);
+      if (cosine_of(l.last, last) >= cosine) limit = std::min(limit, l.distance);
     return limit;
   }
   /// Takes a string; false if it is of no use.
@@ -68,7 +80,8 @@ struct VertexLabels {
         placed = true;
         if (n < most) kept[n++] = label;
       }
-      const bool after = placed && (l.chain == label.chain || dot(l.last, label.last) >= cosine);
+      const bool after =
+          placed && (l.chain == label.chain || cosine_of(l.last, label.last) >= cosine);
       if (n < most && l.chain != none && !after && l.distance < longest) kept[n++] = l;
     }
     if (!placed && n < most) kept[n] = label;
@@ -76,5 +89,7 @@ struct VertexLabels {
     return true;
   }
 };
+
+using VertexLabels = VertexLabelsIn<Point>;
 
 }  // namespace plexway::strings

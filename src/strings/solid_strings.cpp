@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include <plexway/error.hpp>
-
 #include "complexes/common/number_range.hpp"
+#include "strings/to_field.hpp"
 
 namespace plexway {
 
@@ -86,34 +85,16 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
     sources_.push_back(source_of(mesh, *space_, s));
   }
   std::sort(inside_.begin(), inside_.end());
-  const std::size_t vertices = mesh.vertex_count();
   strings::Limits limits;
   limits.radius = options.radius / mesh.unit();
   limits.expansions = options.max_expansions;
   if (options.progress)
     limits.progress = [&](std::size_t expansions, double distance) {
-      if (!options.progress({expansions, std::min(expansions, mesh.tet_count()), mesh.tet_count(),
-                             distance * mesh.unit()}))
-        throw Cancelled("cancelled by the progress callback");
+      strings::tell(options, expansions, mesh.tet_count(), distance * mesh.unit());
     };
   field.complete = solver_->solve(sources_, limits);
-  constexpr Real infinity = std::numeric_limits<Real>::infinity();
-  field.distance.resize(vertices);
-  field.label.assign(sources.size() > 1 ? vertices : 0, none);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const Index inside = mesh.inside_vertex(static_cast<Index>(v));
-    const Real d = static_cast<Real>(solver_->distance(inside) * mesh.unit());
-    const bool in = d <= static_cast<Real>(options.radius) && d < infinity;
-    field.distance[v] = in ? d : infinity;
-    if (in && sources.size() > 1) field.label[v] = solver_->source(inside);
-  }
-  // An offset survives scaling exactly.
-  for (const PointSource& s : sources)
-    if (s.vertex != none && s.offset <= options.radius)
-      field.distance[s.vertex] = std::min(field.distance[s.vertex], static_cast<Real>(s.offset));
+  strings::to_field(mesh, *solver_, sources, options.radius, field);
   field.accuracy = Accuracy::accurate();
-  field.error.clear();
-  field.statistics = {};
   field.statistics.expansions = solver_->counts().expansions;
   field.statistics.updates = solver_->counts().labels;
 }

@@ -119,30 +119,6 @@ TEST_CASE("a simplicial propagation can be bounded, watched and cancelled") {
   CHECK_THROWS_AS(plexway::solve(Serial{}, domain, PointSource::at(0), options), Cancelled);
 }
 
-TEST_CASE("while vertices of a flat domain tell each other it is heard who cancels") {
-  const HoledCube<4> cube(6);
-  const auto domain = cube.complex<double>();
-  const PointSource source = PointSource::at(0);
-  PauseWatch watch;
-  PropagateOptions options;
-  options.progress = std::ref(watch);
-  const auto watched = plexway::solve(Serial{}, domain, source, options);
-  CHECK(watched.distance == plexway::solve(Serial{}, domain, source).distance);
-  // Each pass looks at all simplices around each vertex, and tells after 1024 of them: two passes
-  // at least, as some vertices gain, and what they tell each other.
-  const int looks = static_cast<int>(5 * domain.simplex_count() / (1024 + 120));
-  const int calls = watch.calls;
-  CAPTURE(looks, calls);
-  CHECK(calls > 2 * looks);
-  for (const int cancelled_at : {1, looks / 2, looks + 2, calls}) {
-    watch = {};
-    watch.cancelled_at = cancelled_at;
-    CAPTURE(cancelled_at);
-    CHECK_THROWS_AS(plexway::solve(Serial{}, domain, source, options), Cancelled);
-    CHECK(watch.calls == cancelled_at);
-  }
-}
-
 TEMPLATE_TEST_CASE("solving a simplicial domain again gives the same bits", "", float, double) {
   const HoledCube<4> cube(5);
   const auto domain = cube.complex<TestType>();
@@ -158,7 +134,7 @@ TEMPLATE_TEST_CASE("solving a simplicial domain again gives the same bits", "", 
   CHECK(field.distance == first);
   CHECK(field.label.empty());
   CHECK(plexway::solve(Serial{}, domain, one[0]).distance == first);
-  CHECK(workspace.bytes() > domain.simplex_count() * 7 * sizeof(TestType));
+  CHECK(workspace.bytes() > domain.vertex_count() * 100);
 }
 
 TEMPLATE_TEST_CASE("parts that only touch are reached through their vertices", "", float, double) {

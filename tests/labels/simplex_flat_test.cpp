@@ -30,7 +30,8 @@ void check_cube(std::size_t n) {
         CHECK(e.fits);
         CHECK(e.max < rounding<Real>);
         CHECK(field.distance[source] == 0);
-        CHECK(field.statistics.reached_simplices == domain.simplex_count());
+        if (N == 2)  // strings are at vertices
+          CHECK(field.statistics.reached_simplices == domain.simplex_count());
       }
     }
   }

@@ -89,10 +89,10 @@ template <int N>
 void check(const Problem<N>& problem, std::size_t density, unsigned sources, unsigned targets) {
   const Deviation e = deviation(problem.obstacles, density, sources, targets, 11);
   CAPTURE(N, problem.name, e.mean, e.worst, e.below);
-  // Where walls meet in an inner corner, a vertex there may not hear of the shortest way.
-  const bool is_corner = std::string(problem.name) == "three blocks";
-  CHECK(e.mean < (is_corner ? 1e-4 : 1e-8));
-  CHECK(e.worst < (is_corner ? 1e-2 : 1e-7));
+  // In four dimensions a vertex may not hear of the shortest way: one of these is 8e-4 too far.
+  const bool is_lost = N == 4 && std::string(problem.name) == "sheared box";
+  CHECK(e.mean < (is_lost ? 2e-5 : 1e-8));
+  CHECK(e.worst < (is_lost ? 1e-3 : 1e-7));
   CHECK(e.below > -1e-8);
 }
 
@@ -158,8 +158,8 @@ TEST_CASE("among random boxes in space and beyond no distance is short and few a
   for (const Deviation& e :
        {random_deviation<3>(12, 8, 3, 24, 2, 60), random_deviation<4>(6, 6, 2, 5, 2, 40)}) {
     CAPTURE(e.mean, e.worst, e.below);
-    CHECK(e.mean < 1e-4);
-    CHECK(e.worst < 1e-2);
+    CHECK(e.mean < 1e-6);
+    CHECK(e.worst < 1e-3);
     CHECK(e.below > -1e-5);
   }
 }
@@ -214,8 +214,8 @@ TEST_CASE("a way passes between blocks that touch in an edge, at any point of it
     for (const auto& obstacles : {touching, sheared(touching)}) {
       const Deviation e = deviation(obstacles, 40, 3, 60, 5);
       CAPTURE(e.mean, e.worst, e.below);
-      CHECK(e.mean < 1e-4);
-      CHECK(e.worst < 1e-2);
+      CHECK(e.mean < 1e-6);
+      CHECK(e.worst < 1e-4);
       CHECK(e.below > -1e-9);
     }
   }
@@ -311,12 +311,48 @@ TEST_CASE("what does not lie flat is not taken for flat") {
   winding.resize(2 * 2 * 12);
   strip.resize(2 * 11);
   CHECK(is_flat(winding, strip));
-  // Lengths alone, and a surface in space.
+  // Lengths alone; a surface in space is flat if it lies in a plane.
   const std::array<Index, 3> one[] = {{0, 1, 2}};
   const std::array<double, 3> lengths[] = {{3., 4., 5.}};
   CHECK(SimplicialComplex<double, 2>(3, one, lengths).flat() == nullptr);
-  const std::vector<double> in_space = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-  CHECK(SimplicialComplex<double, 2>(in_space, 3, one).flat() == nullptr);
+  const std::vector<double> in_space = {0, 0, 7, 1, 2, 3, 4, 1, 8, 5, 3, 4};
+  const std::array<Index, 3> two[] = {{0, 1, 2}, {1, 2, 3}};
+  CHECK(SimplicialComplex<double, 2>(in_space, 3, one).flat() != nullptr);
+  CHECK(SimplicialComplex<double, 2>(in_space, 3, two).flat() != nullptr);
+  std::vector<double> bent = in_space;
+  bent.back() += 1e-6;
+  CHECK(SimplicialComplex<double, 2>(bent, 3, two).flat() == nullptr);
+}
+
+TEST_CASE("a flat complex of more coordinates is solved as in its own") {
+  const auto box = solids()[0].obstacles;
+  const auto simplices = box.grid.simplices([&](const auto& cell) { return box.is_absent(cell); });
+  std::vector<double> own, turned;
+  for (Index v = 0; v < box.grid.vertex_count(); ++v) {
+    const auto p = box.grid.position(v);
+    own.insert(own.end(), p.begin(), p.end());
+    // As far from each other, in five coordinates.
+    turned.insert(turned.end(), {7 + .6 * p[0], .8 * p[0] - 3, p[1] * .28, 2 - p[1] * .96, p[2]});
+  }
+  const SimplicialComplex<double, 3> plain(own, 3, simplices), in_five(turned, 5, simplices);
+  CHECK(in_five.summary().flat);
+  CHECK(in_five.summary().bending_faces == plain.summary().bending_faces);
+  // A vertex, and a point of a simplex.
+  const PointSource sources[] = {PointSource::at(5), PointSource::in(700, {.1, .2, .3, .4})};
+  const auto right = plexway::solve(Serial{}, plain, sources);
+  const auto found = plexway::solve(Serial{}, in_five, sources);
+  const Errors e = compare(found.distance, right.distance);
+  CAPTURE(e.mean, e.max);
+  CHECK(e.fits);
+  CHECK(e.max < 1e-9);
+  std::size_t same = 0, inside = 0;
+  for (std::size_t v = 0; v < right.label.size(); ++v) {
+    same += found.label[v] == right.label[v];
+    inside += right.label[v] == 1;
+  }
+  CHECK(same + 3 > right.label.size());
+  CHECK(inside > 20);
+  CHECK(inside < right.label.size() / 2 * 2 - 20);
 }
 
 TEST_CASE("a team pulls the same strings") {

@@ -120,18 +120,4 @@ std::vector<double> solve(const SimplicialComplex<Real, N>& domain, const PointS
   return {field.distance.begin(), field.distance.end()};
 }
 
-/// Counts how often a solve told its progress while nothing was expanded, which is between two
-/// rounds of expansions, where vertices tell each other; `cancelled_at` says at which of these it
-/// is to end.
-struct PauseWatch {
-  int calls = 0, cancelled_at = 0;
-  std::size_t expansions = std::numeric_limits<std::size_t>::max();
-
-  bool operator()(const Progress& p) {
-    calls += p.expansions == expansions;
-    expansions = p.expansions;
-    return calls == 0 || calls != cancelled_at;
-  }
-};
-
 }  // namespace plexway::testing

@@ -13,9 +13,36 @@
 
 namespace plexway {
 
-/// What is known of a complex where it is flat, for the library's own use.
+template <class Real>
+class TriangleMesh;
+template <class Real>
+class TetMesh;
+
+/// What is known of a complex of four dimensions where it is flat, for the library's own use.
 template <int N>
 struct FlatDomain;
+
+namespace detail {
+
+template <int N>
+struct FlatForm {
+  using type = FlatDomain<N>;
+};
+template <>
+struct FlatForm<2> {
+  using type = TriangleMesh<double>;
+};
+template <>
+struct FlatForm<3> {
+  using type = TetMesh<double>;
+};
+
+}  // namespace detail
+
+/// What a flat complex is solved as: the surface or the solid of the same vertices and simplices,
+/// in the caller's order; in four dimensions points and the faces on which paths bend.
+template <int N>
+using FlatForm = typename detail::FlatForm<N>::type;
 
 /// The counts of a complex, made while it is built.
 struct SimplicialSummary {
@@ -32,7 +59,7 @@ struct SimplicialSummary {
   std::size_t degenerate_simplices = 0;   ///< no volume
   std::size_t violated_simplices = 0;     ///< no flat simplex has these lengths
   std::size_t components = 0;             ///< of simplices joined by vertices
-  bool flat = false;              ///< lies in R^N, N its dimension, and does not overlap itself
+  bool flat = false;  ///< lies in N coordinates, N its dimension, and does not overlap itself
   std::size_t bending_faces = 0;  ///< if so: where paths around obstacles bend
   double mean_edge = 0;           ///< in the input's unit; the library works in this unit inside
 };
@@ -46,16 +73,16 @@ struct SimplicialSummary {
 /// simplices without volume are all allowed. Lengths that no flat simplex has are counted and
 /// lived with: distances are then finite, and only as good as such lengths. Immutable once built.
 ///
-/// A complex of dimension N with N coordinates a vertex is looked at as a flat domain: if it is
-/// one (summary().flat), solves know the faces on which paths bend around obstacles: under
-/// Visibility::saddles, the default, distances are then lengths of paths, never short by more than
-/// rounding, exact in a straight line and around single bends. Every other policy, and a complex
-/// that is not flat, takes the plain step: exact where nothing is in the way.
+/// Where vertices have coordinates it is found out whether the complex lies flat (summary().flat).
+/// If it does, distances under Visibility::saddles, the default, are lengths of paths around
+/// obstacles, never short by more than rounding: by the windows of a surface, by the strings of a
+/// solid, in four dimensions by strings of their own, in double whatever Real is. Every other
+/// policy, and a complex that is not flat, takes the plain step: exact where nothing is in the way.
 ///
 /// Vertices and simplices have the caller's numbers in this interface; inside they are in
 /// breadth-first order. Memory, float: 33, 53, 77 and 104 bytes a simplex for N = 1 to 4, and 8 a
-/// vertex; a flat domain has 8 N bytes more of each, another one with coordinates 8 for each of a
-/// vertex. A facet with n simplices takes n steps each
+/// vertex; a flat one has its surface or solid, too, or in four dimensions 32 bytes more of each,
+/// another one with coordinates 8 for each of a vertex. A facet with n simplices takes n steps each
 /// time one of them gets nearer: mind the hubs of graphs. Where surfaces and solids have classes of
 /// their own (TriangleMesh, TetMesh), those can do more.
 template <class Real, int N>
@@ -88,8 +115,7 @@ class SimplicialComplex {
                     std::span<const Lengths> lengths);
 
   /// From coordinates: `axes` numbers a vertex, axes >= N. Throws as above, naming the
-  /// vertex for a coordinate that is not finite. Where axes = N it is found out whether the
-  /// complex lies flat, at half the cost again.
+  /// vertex for a coordinate that is not finite.
   SimplicialComplex(std::span<const double> positions, std::size_t axes,
                     std::span<const Corners> simplices);
 
@@ -134,8 +160,8 @@ class SimplicialComplex {
   }
   /// Vertices (inside) where parts only touch, ascending.
   [[nodiscard]] std::span<const Index> pinched() const { return pinched_; }
-  /// Points and bending faces, if the complex is flat; else nullptr.
-  [[nodiscard]] const FlatDomain<N>* flat() const { return flat_.get(); }
+  /// What it is solved as if it is flat; else nullptr.
+  [[nodiscard]] const FlatForm<N>* flat() const { return flat_.get(); }
   /// Of a vertex (inside), in units; nothing where they are not known, or the complex is flat.
   [[nodiscard]] std::span<const double> coordinates(Index inside_vertex) const {
     return std::span<const double>(coordinates_).subspan(axes_ * inside_vertex, axes_);
@@ -148,7 +174,7 @@ class SimplicialComplex {
   void assemble(std::size_t vertices, std::span<const Corners> simplices,
                 std::vector<Lengths> lengths);
   void find_stars(std::size_t vertices);
-  void lay_flat(std::span<const double> positions);
+  void lay_flat(std::span<const double> positions, std::span<const Corners> simplices);
   void keep_coordinates(std::span<const double> positions, std::size_t axes);
 
   SimplicialSummary summary_;
@@ -157,7 +183,7 @@ class SimplicialComplex {
   std::vector<Index> star_begin_, corners_;
   std::vector<unsigned char> places_;  // N < 4: where the caller's corners went, two bits each
   std::vector<Index> pinched_;
-  std::shared_ptr<const FlatDomain<N>> flat_;
+  std::shared_ptr<const FlatForm<N>> flat_;
   std::size_t axes_ = 0;
   std::vector<double> coordinates_;
 };

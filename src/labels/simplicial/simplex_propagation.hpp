@@ -12,8 +12,6 @@
 #include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "labels/progress_counter.hpp"
-
 namespace plexway {
 
 /// A source that is no vertex, N < 4: its coordinates by the corners of the record.
@@ -35,7 +33,6 @@ class SimplexPropagation {
       : domain_(domain),
         rule_(rule),
         front_(front),
-        options_(options),
         radius_(static_cast<Real>(options.radius / domain.unit())) {
     front.expect_slow_steps();
   }
@@ -117,24 +114,12 @@ class SimplexPropagation {
     return std::sqrt(*std::max_element(std::begin(l), std::end(l)));
   }
 
-  /// A path may pass a vertex where parts only touch: it bends there (a hinge of dimension 0). And
-  /// rules may know more of vertices. True if some simplex got a better label.
+  /// A path may pass a vertex where parts only touch: it bends there (a hinge of dimension 0).
+  /// True if some simplex got a better label.
   bool pass_vertices() {
-    ProgressCounter progress(options_, 1024);  // some hundredths of a second
-    std::size_t looked_at = 0;
-    const auto report = [&](std::size_t simplices, double distance) {
-      progress.count(looked_at += simplices, [&] {
-        return Progress{front_.expansions(), front_.reached_count(), domain_.simplex_count(),
-                        distance * domain_.unit()};
-      });
-    };
-    if constexpr (requires { rule_.pass_vertices(0., report); }) {
-      return rule_.pass_vertices(static_cast<double>(radius_), report);
-    } else {
-      bool any = false;
-      for (const Index v : domain_.pinched()) any |= pass(v);
-      return any;
-    }
+    bool any = false;
+    for (const Index v : domain_.pinched()) any |= pass(v);
+    return any;
   }
   bool pass(Index v) {
     Real best = std::numeric_limits<Real>::infinity();
@@ -159,7 +144,6 @@ class SimplexPropagation {
   const SimplicialComplex<Real, N>& domain_;
   Rule rule_;
   Front& front_;
-  const PropagateOptions& options_;
   Real radius_;
 };
 

@@ -101,9 +101,8 @@ std::string simplices_sentence(const SimplicialComplex<Real, N>& complex) {
          counted(notches, N == 2   ? "corners"
                           : N == 3 ? "edges"
                                    : "triangles") +
-         " of the boundary, which no rule sees in simplices by lengths, or of more coordinates "
-         "than "
-         "dimensions: distances behind them may be up to a sixth too short";
+         " of the boundary, which no rule sees in simplices by lengths, or that do not lie flat: "
+         "distances behind them may be up to a sixth too short";
 }
 
 template <class Real>

@@ -8,7 +8,7 @@
 
 #include "complexes/simplicial/flat_domain.hpp"
 
-namespace plexway {
+namespace plexway::strings {
 
 /// The shortest string between two points over given bending faces, in their order. Between faces
 /// nothing is in its way: that is for others to see to.
@@ -18,11 +18,13 @@ namespace plexway {
 /// Newton's method moves those together that are not at an end. (The length is a convex function.)
 template <int N>
 class Taut {
+  static_assert(N > 2, "bends have a coordinate");
+
  public:
   using Point = std::array<double, N>;
   using Face = BendingFace<N>;
   using Along = typename Face::Along;
-  static constexpr std::size_t most = 16;
+  static constexpr std::size_t most = 24;
 
   explicit Taut(const FlatDomain<N>& domain) : domain_(domain) {}
 
@@ -41,8 +43,8 @@ class Taut {
 
   /// Its length.
   double solve() {
-    if (count_ == 1 || N == 2) {
-      for (std::size_t i = 0; i < count_; ++i) relax(i);
+    if (count_ == 1) {
+      relax(0);
       return length();
     }
     double best = infinity;
@@ -84,9 +86,7 @@ class Taut {
   /// Bend i to its best place between its neighbours. How far it went.
   double relax(std::size_t i) {
     free_[i] = true;
-    if constexpr (K == 0) {
-      return 0;
-    } else {
+    {
       const Face& face = *face_[i];
       const Point p = minus(before(i), face.origin), q = minus(behind(i), face.origin);
       Along ap, aq;
@@ -141,7 +141,7 @@ class Taut {
   /// there are no others and all of it was taken: how far off they may still be, its square by the
   /// shortest leg. Else +inf.
   double newton() {
-    if constexpr (K > 0) {
+    {
       constexpr std::size_t size = most * K;
       std::size_t place[most], unknowns = 0;
       for (std::size_t i = 0; i < count_; ++i) {
@@ -243,4 +243,4 @@ class Taut {
   std::size_t count_ = 0;
 };
 
-}  // namespace plexway
+}  // namespace plexway::strings

@@ -1,0 +1,42 @@
+#include "strings/flat_strings.hpp"
+
+#include <vector>
+
+#include "strings/to_field.hpp"
+
+namespace plexway {
+
+using strings::FlatSpace;
+
+template <class Real>
+void FlatStrings::solve(const SimplicialComplex<Real, 4>& complex,
+                        std::span<const PointSource> sources, const PropagateOptions& options,
+                        DistanceField<Real>& field) {
+  const FlatDomain<4>& flat = *complex.flat();
+  const auto space = flat.space.get<FlatSpace<4>>(
+      [&] { return std::make_shared<const FlatSpace<4>>(complex, flat); });
+  if (space != space_) {
+    space_ = space;
+    solver_ = std::make_unique<strings::FlatSolver<4>>(*space_);
+  }
+  const double unit = complex.unit();
+  std::vector<strings::FlatRoot> roots;
+  for (const PointSource& s : sources)
+    roots.push_back(
+        {complex.inside_vertex(s.vertex), s.offset / unit, static_cast<Index>(roots.size())});
+  field.complete =
+      solver_->solve(roots, options.radius / unit, options.max_expansions,
+                     [&](std::size_t expansions, double distance) {
+                       strings::tell(options, expansions, complex.simplex_count(), distance * unit);
+                     });
+  strings::to_field(complex, *solver_, sources, options.radius, field);
+  field.statistics.expansions = solver_->expansions();
+  field.statistics.updates = solver_->labels();
+}
+
+template void FlatStrings::solve(const SimplicialComplex<float, 4>&, std::span<const PointSource>,
+                                 const PropagateOptions&, DistanceField<float>&);
+template void FlatStrings::solve(const SimplicialComplex<double, 4>&, std::span<const PointSource>,
+                                 const PropagateOptions&, DistanceField<double>&);
+
+}  // namespace plexway
