@@ -4,8 +4,12 @@
 // a crack, and paths in these. Several sources at once: in a cube against straight
 // lines, in prisms over plans against the least of a field from each. And solids of several speeds:
 // stacks of slabs, against Snell's law and head waves; two with rectangles or slits cut out of
-// both, against a refined graph.
+// both, against a refined graph. Solids welded to their own surfaces, against the solid alone and
+// the straight line.
 
+#include <map>
+
+#include <plexway/mixed/mixed_complex.hpp>
 #include <plexway/simplicial/kuhn_grid.hpp>
 #include <plexway/simplicial/simplicial_complex.hpp>
 
@@ -201,6 +205,82 @@ void solve_pierced(Random& random, bool slits, std::size_t plans, PlanErrors& er
   });
 }
 
+/// A grid with cells left out, vertices moved in every other one, welded to all or some of its own
+/// boundary as a surface of the same speed: what the solid alone says, and the straight line.
+struct Skinned {
+  std::vector<fuzz::Place> places, skin;
+  std::vector<std::array<Index, 4>> tets;
+  std::vector<std::array<Index, 3>> triangles;
+  bool all = false;  // is all of the boundary covered?
+
+  explicit Skinned(Random& random) {
+    const std::size_t n = 3 + random() % 4;
+    const double empty = .35 * share(random), cell = 1. / static_cast<double>(n);
+    std::vector<char> gone(n * n * n);
+    for (char& one : gone) one = share(random) < empty;
+    const plexway::KuhnGrid<3> grid({n, n, n}, {cell, cell, cell});
+    tets = grid.simplices([&](const auto& c) { return gone[c[0] + n * (c[1] + n * c[2])] != 0; });
+    const double moved = random() % 2 == 0 ? 0 : .15 * cell;
+    for (Index v = 0; v < grid.vertex_count(); ++v) {
+      places.push_back(grid.position(v));
+      for (double& x : places.back())
+        if (x > cell / 2 && x < 1 - cell / 2) x += moved * (2 * share(random) - 1);
+    }
+    all = random() % 2 == 0;
+    cover(random, all ? 1 : .2 + .8 * share(random));
+  }
+
+ private:
+  void cover(Random& random, double covered) {
+    std::map<std::array<Index, 3>, int> faces;
+    for (std::array<Index, 4> t : tets) {
+      std::sort(t.begin(), t.end());
+      for (std::size_t i = 0; i < 4; ++i) {
+        std::array<Index, 3> face{};
+        for (std::size_t j = 0, k = 0; j < 4; ++j)
+          if (j != i) face[k++] = t[j];
+        ++faces[face];
+      }
+    }
+    std::map<Index, Index> own;
+    for (const auto& [face, count] : faces) {
+      if (count != 1 || share(random) > covered) continue;
+      triangles.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto [at, is_new] = own.try_emplace(face[i], static_cast<Index>(skin.size()));
+        if (is_new) skin.push_back(places[face[i]]);
+        triangles.back()[i] = at->second;
+      }
+    }
+  }
+};
+
+void solve_skinned(Random& random, bool straight, PlanErrors& errors) {
+  const Skinned made(random);
+  const auto from = static_cast<std::size_t>(random());
+  if (made.tets.empty() || made.triangles.empty()) return;
+  plexway::MixedComplex<double> domain;
+  const plexway::TetMesh<double> alone(made.places, made.tets);
+  const auto solid = domain.add(alone, made.places);
+  const auto skin = domain.add(plexway::TriangleMesh<double>(made.skin, made.triangles), made.skin);
+  domain.weld(solid, skin,
+              {.tolerance = 1e-9, .all_edges = from % 3 == 0, .all_vertices = from % 5 == 0});
+  const Index v = made.tets[from % made.tets.size()][0];
+  const Distances all = distances(domain, PointSource::at(solid.vertex(v)));
+  Distances found, truth = straight ? Distances() : distances(alone, PointSource::at(v));
+  for (Index w = 0; w < made.places.size(); ++w) {
+    found.push_back(all[solid.vertex(w)]);
+    if (straight) truth.push_back(fuzz::Graph::straight(made.places[w], made.places[v]));
+  }
+  for (Index w = 0; straight && w < made.skin.size(); ++w) {
+    found.push_back(all[skin.vertex(w)]);
+    truth.push_back(fuzz::Graph::straight(made.skin[w], made.places[v]));
+  }
+  for (std::size_t w = 0; w < truth.size(); ++w)
+    if (!(found[w] < std::numeric_limits<double>::infinity())) truth[w] = 0;  // not reached
+  errors.add(found, truth);
+}
+
 void run(Arguments& arguments) {
   std::size_t plans = 200;
   unsigned seed = 1;
@@ -209,7 +289,7 @@ void run(Arguments& arguments) {
   arguments.option("--seed", &seed, "Other plans by another number");
   arguments.names("--only", &only,
                   "accurate, exact, plane, prism, sources, moved, boundary, least, stack, holes, "
-                  "slits, crack, path");
+                  "slits, crack, path, skin");
   Table& table = arguments.table(
       "domain; plans; vertices; mean; long: most too long; short: most too short;"
       "off: vertices off by .1 %; far: above 1 %; above1: plans above 1 %; above3: above 3 %;"
@@ -272,6 +352,11 @@ void run(Arguments& arguments) {
     measure("crack " + kind, [&](Random& random, PlanErrors& errors) {
       solve_cracked(random, plans, kind, errors);
     });
+  for (const bool straight : {false, true})
+    measure(straight ? "skin over straight lines" : "skin over the solid alone",
+            [&](Random& random, PlanErrors& errors) {
+              for (std::size_t i = 0; i < plans; ++i) solve_skinned(random, straight, errors);
+            });
   measure("path slit", [&](Random& random, PlanErrors& errors) {
     trace_cracked(random, plans, "slit", errors);
   });

@@ -17,10 +17,10 @@ function(plexway_provider_wanted name out)
 endfunction()
 
 # plexway_add_provider(NAME IN <folder> FOUND <bool> PACKAGE <Debian package> [INCLUDES dir...]
-#   [LIBRARIES lib...])
+#   [LIBRARIES lib...] [BATCH n])
 # Header-only needs go to INCLUDES, which users of the installed package never see.
 function(plexway_add_provider name)
-  cmake_parse_arguments(arg "" "IN;FOUND;PACKAGE" "INCLUDES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "" "IN;FOUND;PACKAGE;BATCH" "INCLUDES;LIBRARIES" ${ARGN})
   string(TOUPPER "PLEXWAY_WITH_${name}" option)
   if(NOT arg_FOUND)
     if("${${option}}" STREQUAL "AUTO")
@@ -33,7 +33,8 @@ function(plexway_add_provider name)
   set(dir "${PROJECT_SOURCE_DIR}/${arg_IN}/${name}")
   set_property(GLOBAL PROPERTY PLEXWAY_FOLDER_${name} "${dir}")
   file(GLOB sources CONFIGURE_DEPENDS "${dir}/src/*.cpp")
-  plexway_add_component(${name} SOURCES ${sources} HEADERS_FROM "${dir}/include" DEPENDS core)
+  plexway_add_component(${name} SOURCES ${sources} HEADERS_FROM "${dir}/include" DEPENDS core
+    BATCH ${arg_BATCH})
   target_include_directories(plexway_${name} PRIVATE "${dir}/src")
   target_include_directories(plexway_${name} SYSTEM PRIVATE ${arg_INCLUDES})
   target_link_libraries(plexway_${name} PRIVATE ${arg_LIBRARIES})

@@ -52,7 +52,7 @@ class ShapesInSpace final : public TriangleShapes {
   std::span<const std::array<Index, 3>> faces_;
 };
 
-/// From lengths. `violated`: which of them broke the triangle inequality before they were mended.
+/// From lengths. `violated`: which of them broke the triangle inequality before they were repaired.
 class ShapesOfLengths final : public TriangleShapes {
  public:
   ShapesOfLengths(std::span<const std::array<double, 3>> lengths, std::span<const char> violated)

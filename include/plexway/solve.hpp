@@ -160,6 +160,16 @@ requires detail::WrongCall<E, D, Sources> DistanceField<float> solve(const E&, c
   return {};
 }
 
+/// Does not compile: options stand in braces, by name.
+template <ExecutorType E, DomainType D, class Options>
+requires(!std::convertible_to<const Options&, PropagateOptions>)
+    DistanceField<RealOf<D>> solve(const E&, const D&, const SourceList&, const Options&) {
+  static_assert(std::convertible_to<const Options&, PropagateOptions>,
+                "options stand in braces, by name: solve(Serial{}, mesh, 0, {.accuracy = "
+                "Accuracy::exact(), .radius = 2})");
+  return {};
+}
+
 /// Does not compile: the executor is missing.
 template <DomainType D, class Sources>
 DistanceField<float> solve(const D&, const Sources&) {

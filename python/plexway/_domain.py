@@ -21,7 +21,7 @@ from ._results import (
     Picture,
     Points,
 )
-from ._sources import columns_of, index, located, place
+from ._sources import columns_of, index, located, only_place, place
 from ._warnings import warn
 
 if TYPE_CHECKING:
@@ -641,7 +641,7 @@ class Domain:
             return self.field(source, accuracy=accuracy).path(target, margin=margin)
         if accuracy is not None:
             raise ValueError("accuracy: a search by A* goes by its margin")
-        ends = [place(self, target)]
+        ends = [only_place(self, target)]
         found = _plexway.find_paths(self._native, located(self, source), ends, margin, None)
         return Path(*found[0])
 

@@ -76,6 +76,7 @@ class _OfSimplices(Domain):
         if rows.ndim != 2 or rows.shape[1] != self._corners:
             raise ValueError(
                 f"{self._cells}: expected shape (m, {self._corners}), got {rows.shape}"
+                + _hint(rows, self._corners)
             )
         if V is not None:
             V = plain(V, "V")
@@ -93,6 +94,19 @@ class _OfSimplices(Domain):
                 **_options_of(precision, triangulation, metric, report, mask),
             )
         warn(self._native.doubts)
+
+
+def _hint(rows: Array, corners: int) -> str:
+    """What to write instead, for faces as other packages have them."""
+    if corners != 3 or rows.dtype.kind not in "iu" or not rows.size:
+        return ""
+    if rows.ndim == 1 and rows.size % 4 == 0 and np.all(rows[::4] == 3):
+        return ": a count before each triangle, as VTK has them: F.reshape(-1, 4)[:, 1:]"
+    if rows.ndim == 2 and rows.shape[1] == 4:
+        if np.all(rows[:, 0] == 3):
+            return ": the first column counts corners: F[:, 1:]"
+        return ": quads are two triangles each: np.vstack((F[:, [0, 1, 2]], F[:, [0, 2, 3]]))"
+    return ""
 
 
 class Surface(_OfSimplices):

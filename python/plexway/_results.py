@@ -11,7 +11,7 @@ import numpy as np
 
 from ._arrays import Array, scipy_sparse
 from ._plexway import UsageError
-from ._sources import Point, Source, Vertex, located, place
+from ._sources import Point, Source, Vertex, located, only_place, place
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -331,7 +331,7 @@ class Field:
         -------
         Path
         """
-        found = Path(*self._native.trace(place(self._domain, start), margin))
+        found = Path(*self._native.trace(only_place(self._domain, start), margin))
         if self._owner is not None and found.source >= 0:
             found = replace(found, source=int(self._owner[found.source]))
         return found

@@ -232,6 +232,16 @@ def place(domain: Any, at: Any) -> Any:
     )
 
 
+def only_place(domain: Any, at: Any) -> Any:
+    """As `place`, where a row of integers would be vertices if several might stand there."""
+    if np.ndim(at) == 1 and np.asarray(at).dtype.kind in "iu":
+        raise ValueError(
+            f"one place, a vertex (an integer) or a point (three floats); got {at!r:.60}; "
+            "paths from several places: field(source).paths([1, 2])"
+        )
+    return place(domain, at)
+
+
 def located(domain: Any, source: Any, none_is_well: bool = False) -> List[Any]:
     """A source, or several, as the library has them: one each.
 

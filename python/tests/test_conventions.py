@@ -93,3 +93,27 @@ def test_what_is_out_of_range_is_an_index_error():
             px.distance(V, F, source)
         with pytest.raises(px.UsageError):
             px.distance(V, F, source)
+
+
+def test_one_place_is_no_row_of_vertices():
+    V, F = meshes.grid(6)
+    sheet = px.Surface(V, F)
+    for wrong in ([1, 2], [1, 2, 0], np.array([3])):
+        for path in (sheet.field(0).path, lambda at: sheet.path(0, at), lambda at: sheet.path(0, at, astar=True)):
+            with pytest.raises(ValueError, match=r"paths\(\[1, 2\]\)"):
+                path(wrong)
+    assert [w.length for w in sheet.field(0).paths([1, 2])] == [sheet.path(0, v).length for v in (1, 2)]
+    assert sheet.path(0, [1.0, 0.0, 0.0]).length == pytest.approx(1)
+
+
+def test_faces_of_other_packages():
+    V, F = meshes.grid(6)
+    counted = np.c_[np.full(len(F), 3), F]
+    for wrong, hint in (
+        (counted, r"F\[:, 1:\]"),
+        (counted.ravel(), r"reshape\(-1, 4\)\[:, 1:\]"),
+        ([[0, 1, 8, 7]], "two triangles each"),
+    ):
+        with pytest.raises(ValueError, match=hint):
+            px.Surface(V, wrong)
+    assert len(px.Surface(V, counted[:, 1:]).distance(0)) == len(V)

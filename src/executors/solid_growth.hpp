@@ -114,7 +114,7 @@ class Growth<TetMesh<Real>> {
   [[nodiscard]] Point first_bend(Index t) {
     centre_.tet = none;
     (void)centre(t);
-    return solver_->path(attached())[1];
+    return solver_->path(attached()).points[1];
   }
   [[nodiscard]] Real vertex_distance(Index vertex) const {
     return solver_ ? static_cast<Real>(solver_->distance(vertex))
@@ -204,7 +204,7 @@ class Growth<TetMesh<Real>> {
     Real distance;
   };
 
-  const strings::SolidSpace& space() {
+  const strings::MediaSpace& space() {
     if (!space_) space_ = space_of(mesh_);
     return *space_;
   }
@@ -215,7 +215,7 @@ class Growth<TetMesh<Real>> {
     }
     return *solver_;
   }
-  [[nodiscard]] Index attached() const { return static_cast<Index>(space_->vertices()); }
+  [[nodiscard]] Index attached() const { return static_cast<Index>(space_->points()); }
 
   // A source that is added next.
   strings::Source at(Index vertex, double sigma) {
@@ -240,9 +240,8 @@ class Growth<TetMesh<Real>> {
 
   void attach(strings::Solver& solver, Index t, const Point& at,
               std::span<const Index> sources) const {
-    std::array<Index, 4> corner;
-    std::copy_n(corners_of(t), 4, corner.begin());
-    solver.attach(at, corner, sources);
+    const strings::Inside inside = inside_of(mesh_, *space_, t, at);
+    solver.attach(at, {&inside, 1}, sources);
   }
   // Those of a vertex that may come to a point in less than that.
   void add_ends(Index vertex, const Point& point, double most) {
@@ -298,7 +297,7 @@ class Growth<TetMesh<Real>> {
   template <class Visit>
   void each_source_around(std::span<const Index> start, const Point& at, double radius,
                           const Visit& visit) {
-    seen_.resize(space().vertices(), 0);
+    seen_.resize(space().points(), 0);
     known_.resize(seeds_.size(), 0);
     ++turn_;
     around_.assign(start.begin(), start.end());
@@ -318,7 +317,7 @@ class Growth<TetMesh<Real>> {
   }
 
   const TetMesh<Real>& mesh_;
-  std::shared_ptr<const strings::SolidSpace> space_;
+  std::shared_ptr<const strings::MediaSpace> space_;
   std::optional<strings::Solver> solver_, alone_;
   std::vector<Seed> seeds_;
   std::unordered_multimap<Index, Index> in_tet_;  // sources by the tetrahedron that they are in

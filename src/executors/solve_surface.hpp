@@ -9,7 +9,7 @@
 #include "labels/finish.hpp"
 #include "labels/plain_rule.hpp"
 #include "labels/read_out.hpp"
-#include "labels/surface/mend_surface.hpp"
+#include "labels/surface/repair_surface.hpp"
 #include "labels/surface/saddle_rule.hpp"
 #include "labels/surface/triangle_propagation.hpp"
 
@@ -66,11 +66,11 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
     for (Real& d : workspace.vertex) d = std::max(d, Real(0));
   read_out_sources<Real, kLabels>(mesh, sources, workspace);
   shapes.read_out(front);
-  Mended mended;
+  Repaired repaired;
   if (options.visibility == Visibility::saddles) {
     constexpr bool points = std::is_same_v<Shapes, NoShapes>;
-    mended = mend<Real, kLabels>(mesh, points ? sources : std::span<const PointSource>(), workspace,
-                                 scheduler);
+    repaired = repair<Real, kLabels>(mesh, points ? sources : std::span<const PointSource>(),
+                                     workspace, scheduler);
   }
 
   // Without a radius, whole fans are reached or not; so one of its corners tells of a vertex,
@@ -81,8 +81,8 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
         (bounded || !mesh.pinched().empty() || front.reached(mesh.corner_at(v) / 3))) [[unlikely]]
       read_out_around<Real, kLabels>(mesh, rule, front, v, workspace);
   finish<Real, kLabels>(mesh, sources, options, front, workspace, scheduler, field);
-  field.statistics.lowered_vertices = mended.lowered;
-  field.statistics.raised_vertices = mended.raised;
+  field.statistics.lowered_vertices = repaired.lowered;
+  field.statistics.raised_vertices = repaired.raised;
 }
 
 /// One solve with a queue of its own: rule and labels by the policy, the rest by the scheduler.

@@ -17,15 +17,15 @@ class TrianglePatches;
 /// What the last solve by pieces was like, whatever the threads.
 struct SuperstepCounts {
   std::size_t supersteps = 0;
-  std::size_t runs = 0;     ///< of a piece in a superstep
-  std::size_t letters = 0;  ///< labels sent to other pieces
-  std::size_t bytes = 0;    ///< of letters
-  std::size_t sent = 0;     ///< bytes from this process to others
+  std::size_t runs = 0;      ///< of a piece in a superstep
+  std::size_t messages = 0;  ///< labels sent to other pieces
+  std::size_t bytes = 0;     ///< of messages
+  std::size_t sent = 0;      ///< bytes from this process to others
 
   /// Adds what a solve did.
   void tell(PropagateStatistics& statistics) const {
     statistics.supersteps += supersteps;
-    statistics.messages += letters;
+    statistics.messages += messages;
     statistics.message_bytes += bytes;
     statistics.sent_bytes += sent;
   }

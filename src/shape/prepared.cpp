@@ -26,9 +26,9 @@ namespace {
 // Rows of four vertices may be meant as quads.
 void check_flat(const SolidSummary& solid) {
   if (solid.degenerate_tets == solid.tets)
-    throw InputError("all " + counted(solid.tets, "tetrahedra") +
-                     " are flat; if they are quads of a surface, split each into the triangles "
-                     "(0, 1, 2) and (0, 2, 3)");
+    throw InputError((solid.tets == 1 ? "the only tetrahedron is flat"
+                                      : "all " + counted(solid.tets, "tetrahedra") + " are flat") +
+                     "; quads of a surface are two triangles each, (0, 1, 2) and (0, 2, 3)");
 }
 
 /// Solids, wireframes, clouds and simplices: solved as they are.

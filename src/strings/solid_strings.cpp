@@ -11,10 +11,10 @@ namespace plexway {
 
 using strings::Point;
 
-strings::Source source_at(const strings::SolidSpace& space, Index vertex, double offset) {
+strings::Source source_at(const strings::MediaSpace& space, Index vertex, double offset) {
   strings::Source source;
-  source.vertex = vertex;
-  source.at = source.beside = space.point(vertex);
+  source.point = vertex;
+  source.at = space.point(vertex);
   source.offset = offset;
   return source;
 }
@@ -22,7 +22,7 @@ strings::Source source_at(const strings::SolidSpace& space, Index vertex, double
 namespace {
 
 template <class Real>
-strings::Source source_of(const TetMesh<Real>& mesh, const strings::SolidSpace& space,
+strings::Source source_of(const TetMesh<Real>& mesh, const strings::MediaSpace& space,
                           const PointSource& given) {
   const double offset = given.offset / mesh.unit();
   if (given.vertex != none) return source_at(space, mesh.inside_vertex(given.vertex), offset);
@@ -35,25 +35,36 @@ strings::Source source_of(const TetMesh<Real>& mesh, const strings::SolidSpace& 
 }  // namespace
 
 template <class Real>
-strings::Source source_in(const TetMesh<Real>& mesh, const strings::SolidSpace& space, Index tet,
+strings::Inside inside_of(const TetMesh<Real>& mesh, const strings::MediaSpace& space, Index tet,
+                          const Point& at) {
+  strings::Inside inside{tet, 0, {}, {}};
+  Point middle = {0, 0, 0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    inside.corner[i] = mesh.tets()[tet].corner[i];
+    middle = middle + .25 * space.point(inside.corner[i]);
+  }
+  inside.beside = at + space.aside() * strings::unit(middle - at);
+  return inside;
+}
+
+template <class Real>
+strings::Source source_in(const TetMesh<Real>& mesh, const strings::MediaSpace& space, Index tet,
                           const std::array<double, 4>& weight, double offset) {
   strings::Source source;
   source.offset = offset;
   source.at = {0, 0, 0};
-  Point middle = {0, 0, 0};
-  for (std::size_t i = 0; i < 4; ++i) {
-    source.corners[i] = mesh.tets()[tet].corner[i];
-    source.at = source.at + weight[i] * space.point(source.corners[i]);
-    middle = middle + .25 * space.point(source.corners[i]);
-  }
-  source.beside = source.at + space.aside() * strings::unit(middle - source.at);
+  for (std::size_t i = 0; i < 4; ++i)
+    source.at = source.at + weight[i] * space.point(mesh.tets()[tet].corner[i]);
+  source.inside.push_back(inside_of(mesh, space, tet, source.at));
   return source;
 }
 
 template <class Real>
-std::shared_ptr<const strings::SolidSpace> space_of(const TetMesh<Real>& mesh) {
-  return mesh.space().template get<strings::SolidSpace>(
-      [&] { return std::make_shared<const strings::SolidSpace>(mesh); });
+std::shared_ptr<const strings::MediaSpace> space_of(const TetMesh<Real>& mesh) {
+  return mesh.space().template get<strings::MediaSpace>([&] {
+    return std::make_shared<const strings::MediaSpace>(
+        std::make_shared<const strings::SolidSpace>(mesh));
+  });
 }
 
 template <class Real>
@@ -110,7 +121,7 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
 SolidStrings::Found SolidStrings::found(Index vertex) const {
   const Index source = solver_->source(vertex);
   if (source == none) return {std::numeric_limits<double>::infinity(), none, {}};
-  return {solver_->distance(vertex) * unit_, source, solver_->path(vertex)};
+  return {solver_->distance(vertex) * unit_, source, solver_->path(vertex).points};
 }
 
 SolidStrings::Found SolidStrings::at(Index vertex) const {
@@ -122,19 +133,19 @@ template <class Real>
 SolidStrings::Found SolidStrings::at(const TetMesh<Real>& mesh, Index tet,
                                      const std::array<double, 4>& weight) const {
   const std::lock_guard lock(asked_);
-  std::array<Index, 4> corners;
   Point at = {0, 0, 0};
   for (std::size_t i = 0; i < 4; ++i) {
-    corners[i] = mesh.tets()[tet].corner[i];
-    if (weight[i] == 1) return found(corners[i]);
-    at = at + weight[i] * space_->point(corners[i]);
+    const Index corner = mesh.tets()[tet].corner[i];
+    if (weight[i] == 1) return found(corner);
+    at = at + weight[i] * space_->point(corner);
   }
   std::vector<Index> own;
   for (auto in = std::lower_bound(inside_.begin(), inside_.end(), std::pair{tet, Index{0}});
        in != inside_.end() && in->first == tet; ++in)
     own.push_back(in->second);
-  solver_->attach(at, corners, own);
-  return found(static_cast<Index>(space_->vertices()));
+  const strings::Inside inside = inside_of(mesh, *space_, tet, at);
+  solver_->attach(at, {&inside, 1}, own);
+  return found(static_cast<Index>(space_->points()));
 }
 
 std::size_t SolidStrings::bytes() const {
@@ -142,11 +153,15 @@ std::size_t SolidStrings::bytes() const {
          sources_.capacity() * sizeof(strings::Source);
 }
 
-template std::shared_ptr<const strings::SolidSpace> space_of(const TetMesh<float>&);
-template std::shared_ptr<const strings::SolidSpace> space_of(const TetMesh<double>&);
-template strings::Source source_in(const TetMesh<float>&, const strings::SolidSpace&, Index,
+template std::shared_ptr<const strings::MediaSpace> space_of(const TetMesh<float>&);
+template std::shared_ptr<const strings::MediaSpace> space_of(const TetMesh<double>&);
+template strings::Inside inside_of(const TetMesh<float>&, const strings::MediaSpace&, Index,
+                                   const Point&);
+template strings::Inside inside_of(const TetMesh<double>&, const strings::MediaSpace&, Index,
+                                   const Point&);
+template strings::Source source_in(const TetMesh<float>&, const strings::MediaSpace&, Index,
                                    const std::array<double, 4>&, double);
-template strings::Source source_in(const TetMesh<double>&, const strings::SolidSpace&, Index,
+template strings::Source source_in(const TetMesh<double>&, const strings::MediaSpace&, Index,
                                    const std::array<double, 4>&, double);
 
 template void SolidStrings::solve(const TetMesh<float>&, std::span<const PointSource>,

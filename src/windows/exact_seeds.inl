@@ -1,4 +1,4 @@
-// Where exact windows begin: at the sources, at letters, and again at what no window reached. Part
+// Where exact windows begin: at the sources, at messages, and again at what no window reached. Part
 // of exact_windows.cpp.
 
 namespace plexway::windows {
@@ -30,17 +30,17 @@ void ExactWindows<Real>::begin(const WindowSources& sources, const PropagateOpti
 }
 
 template <class Real>
-void ExactWindows<Real>::take(const Letter<double>& letter) {
+void ExactWindows<Real>::take(const Message<double>& message) {
   const auto admit = [&](double near) {
     ring_.admit(near, [this](Index n) -> Index& { return nodes_[n].next; });
   };
-  const Window<double>& w = letter.window;
-  if (letter.tells_of_vertex()) {
+  const Window<double>& w = message.window;
+  if (message.is_of_vertex()) {
     admit(w.at_begin);
-    static_cast<void>(know(ring_, letter.vertex(), w.at_begin, letter.arrival(), letter.source));
+    static_cast<void>(know(ring_, message.vertex(), w.at_begin, message.arrival(), message.source));
   } else {
     admit(turn_of(w));
-    enter(ring_, letter.to, w, letter.source);
+    enter(ring_, message.to, w, message.source);
   }
 }
 

@@ -13,8 +13,8 @@
 
 #include "windows/bucket_ring.hpp"
 #include "windows/kept_windows.hpp"
-#include "windows/letters.hpp"
 #include "windows/merge.hpp"
+#include "windows/messages.hpp"
 #include "windows/node_orders.hpp"
 #include "windows/pseudo_source.hpp"
 #include "windows/sheet.hpp"
@@ -75,8 +75,8 @@ class ExactWindows {
   void seed_inside(Index f, const std::array<double, 4>& barycentric, double sigma, Index number);
   /// Light that reaches a vertex in no way that windows know.
   void seed_hole(Index vertex, double distance, Index source, double);
-  /// From another piece; the letter's corner by the numbers here.
-  void take(const Letter<double>& letter);
+  /// From another piece; the message's corner by the numbers here.
+  void take(const Message<double>& message);
   /// As far as the horizon, or so many windows.
   void run_to(double horizon, std::size_t most);
   /// Nothing waits that is nearer.

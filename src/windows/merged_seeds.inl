@@ -1,4 +1,4 @@
-// Where merged windows begin and end: at the sources, at letters, and again at what no window
+// Where merged windows begin and end: at the sources, at messages, and again at what no window
 // reached; what they hold. Part of merged_windows.cpp.
 
 namespace plexway::windows {
@@ -37,20 +37,20 @@ bool MergedWindows<Real>::too_many(std::size_t turns, std::size_t triangles) {
 }
 
 template <class Real>
-void MergedWindows<Real>::take(const Letter<Real>& letter) {
+void MergedWindows<Real>::take(const Message<Real>& message) {
   const auto admit = [&](Real near) {
     ring_.admit(static_cast<double>(near), [this](Index n) -> Index& { return next(n); });
   };
-  const Window<Real>& w = letter.window;
-  if (!letter.tells_of_vertex()) {
+  const Window<Real>& w = message.window;
+  if (!message.is_of_vertex()) {
     admit(turn_of(w));
-    enter(ring_, letter.to, w, letter.source);
+    enter(ring_, message.to, w, message.source);
     return;
   }
   admit(w.at_begin);
   scale_ = scale_at(static_cast<double>(w.at_begin));
-  static_cast<void>(know(ring_, letter.vertex(), w.at_begin, letter.corner, {w.beam.x, w.beam.h},
-                         letter.source, w.error));
+  static_cast<void>(know(ring_, message.vertex(), w.at_begin, message.corner, {w.beam.x, w.beam.h},
+                         message.source, w.error));
 }
 
 template <class Real>

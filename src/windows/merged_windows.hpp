@@ -18,7 +18,7 @@
 #include "windows/entered_triangle.hpp"
 #include "windows/gather.hpp"
 #include "windows/kept_windows.hpp"
-#include "windows/letters.hpp"
+#include "windows/messages.hpp"
 #include "windows/node_orders.hpp"
 #include "windows/pseudo_source.hpp"
 #include "windows/sheet.hpp"
@@ -106,8 +106,8 @@ class MergedWindows {
   void seed_inside(Index f, const std::array<double, 4>& barycentric, double sigma, Index number);
   /// Light that reaches a vertex in no way that windows know.
   void seed_hole(Index vertex, Real distance, Index source, Real error);
-  /// From another piece; the letter's corner by the numbers here.
-  void take(const Letter<Real>& letter);
+  /// From another piece; the message's corner by the numbers here.
+  void take(const Message<Real>& message);
   /// As far as the horizon, or so many turns.
   void run_to(double horizon, std::size_t most);
   /// Nothing waits that is nearer.

@@ -10,7 +10,7 @@
 #include <plexway/error.hpp>
 
 #include "complexes/common/number_range.hpp"
-#include "labels/surface/mend_surface.hpp"
+#include "labels/surface/repair_surface.hpp"
 #include "windows/window_solver.hpp"
 
 namespace plexway::windows {
@@ -42,7 +42,7 @@ inline constexpr bool works_in_place<MergedWindows<Real>> = true;
 template <class Real>
 template <bool kLabels, class Windows, class Scheduler>
 void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& sources,
-                                  const PropagateOptions& options, bool mends,
+                                  const PropagateOptions& options, bool repairs,
                                   const Scheduler& scheduler, WorkspaceState<Real>& workspace,
                                   DistanceField<Real>& field) const {
   NumberRange<Real>::check_unit(mesh_.unit());
@@ -72,12 +72,12 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
     part->find_triangles(mesh_);
   }
   field.statistics = windows.statistics();
-  if (mends) {
-    const auto mended = surface::mend<Real, kLabels>(
+  if (repairs) {
+    const auto repaired = surface::repair<Real, kLabels>(
         mesh_, sources.only_points() ? sources.points : std::span<const PointSource>(), workspace,
         scheduler, part ? &*part : nullptr);
-    field.statistics.lowered_vertices = mended.lowered;
-    field.statistics.raised_vertices = mended.raised;
+    field.statistics.lowered_vertices = repaired.lowered;
+    field.statistics.raised_vertices = repaired.raised;
   }
   field.distance.resize(inside.size());
   field.label.resize(kLabels ? inside.size() : 0);

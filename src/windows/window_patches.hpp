@@ -33,7 +33,7 @@ struct Elsewhere {
   }
 };
 
-/// What letters of a piece are addressed by, so that posting reads nothing but this.
+/// What messages of a piece are addressed by, so that posting reads nothing but this.
 struct PatchAddresses {
   Elsewhere vertices;               ///< of shared vertices
   Elsewhere triangles;              ///< of own triangles at the cut: as ghosts

@@ -9,19 +9,19 @@
 #include <plexway/solve/distance_field.hpp>
 
 #include "labels/pieces/mail.hpp"
-#include "windows/letters.hpp"
+#include "windows/messages.hpp"
 #include "windows/window_patches.hpp"
 
 namespace plexway::windows {
 
-/// A piece of a surface in solves by windows, exact or merged: what Supersteps asks of one. Letters
-/// are windows that enter a ghost, for the piece that it belongs to, and vertices that got nearer,
-/// for all that have them; each then goes around a vertex, and lights up its own triangles.
+/// A piece of a surface in solves by windows, exact or merged: what Supersteps asks of one.
+/// Messages are windows that enter a ghost, for the piece that it belongs to, and vertices that got
+/// nearer, for all that have them; each then goes around a vertex, and lights up its own triangles.
 template <class Real, class Windows>
 class WindowPiece {
  public:
   using Number = double;
-  using Letter = windows::Letter<typename Windows::Number>;
+  using Message = windows::Message<typename Windows::Number>;
 
   /// All of which must outlive this.
   WindowPiece(const Sheet<Real>& sheet, const CutPiece& cut, const PatchAddresses& addresses,
@@ -49,8 +49,8 @@ class WindowPiece {
   [[nodiscard]] double nearest() const {
     double least = windows_.nearest();
     const auto& leaving = std::as_const(windows_).leaving();
-    for (const Letter& letter : leaving.windows)
-      least = std::min(least, static_cast<double>(Windows::turn_of(letter.window)));
+    for (const Message& message : leaving.windows)
+      least = std::min(least, static_cast<double>(Windows::turn_of(message.window)));
     for (const Index v : leaving.vertices)
       least = std::min(least, static_cast<double>(windows_.vertex_distance(v)));
     return least;
@@ -64,7 +64,7 @@ class WindowPiece {
       return 0;
   }
 
-  void take(const Letter& letter) { windows_.take(letter); }
+  void take(const Message& message) { windows_.take(message); }
 
   PieceWork run(double horizon, std::size_t most, std::size_t) {
     return turns_.run(windows_.nearest(), horizon, most, [&](double until, std::size_t some) {
@@ -80,25 +80,25 @@ class WindowPiece {
     if (leaving.windows.empty() && leaving.vertices.empty()) return least;
     const CutPiece& own = cut();
     const PatchAddresses& addresses = *addresses_;
-    const auto home = [&](const Letter& letter) {
-      return addresses.at_home[(letter.to >> 2) - own.own];
+    const auto home = [&](const Message& message) {
+      return addresses.at_home[(message.to >> 2) - own.own];
     };
-    // What a letter has told since was told to all by who wrote it.
+    // What a message has told since was told to all by who wrote it.
     leaving.leave_out([&](Index v) {
       const Index corner = windows_.arrival(v).corner;
       return corner != none && (corner & ~Windows::corner_flags) / 3 >= own.own;
     });
     counts_.assign(own.peer_count(), 0);
-    for (const Letter& letter : leaving.windows) ++counts_[home(letter).piece];
+    for (const Message& message : leaving.windows) ++counts_[home(message).piece];
     for (const Index v : leaving.vertices)
       for (const auto& place : addresses.vertices.of(v)) ++counts_[place.piece];
     Outbox& box = mail_.of(superstep);
-    box.start<Letter>(superstep, counts_);
-    for (Letter& letter : leaving.windows) {
-      least = std::min(least, static_cast<double>(Windows::turn_of(letter.window)));
-      const auto [peer, f] = home(letter);
-      letter.to = f << 2 | (letter.to & 3);
-      box.put(peer, letter);
+    box.start<Message>(superstep, counts_);
+    for (Message& message : leaving.windows) {
+      least = std::min(least, static_cast<double>(Windows::turn_of(message.window)));
+      const auto [peer, f] = home(message);
+      message.to = f << 2 | (message.to & 3);
+      box.put(peer, message);
     }
     for (const Index v : leaving.vertices) {
       if (addresses.vertices.of(v).empty()) continue;
@@ -108,12 +108,12 @@ class WindowPiece {
       for (const auto& [peer, number] : addresses.vertices.of(v)) {
         auto there = arrival;
         there.corner = corner_elsewhere(arrival.corner, peer);
-        box.put(peer, Letter::of_vertex(number, distance, there, windows_.source(v),
-                                        windows_.vertex_error(v)));
+        box.put(peer, Message::of_vertex(number, distance, there, windows_.source(v),
+                                         windows_.vertex_error(v)));
       }
     }
     leaving.clear();
-    work.letters = box.count();
+    work.messages = box.count();
     return least;
   }
 
@@ -138,7 +138,7 @@ class WindowPiece {
   Index number_;
   Windows windows_;
   Outboxes mail_;
-  std::vector<std::size_t> counts_;  ///< letters to each peer
+  std::vector<std::size_t> counts_;  ///< messages to each peer
   PieceTurns<double> turns_;
 };
 

@@ -71,7 +71,7 @@ class WindowSolver {
 
   template <bool kLabels, class Windows, class Scheduler>
   void read_out(const Windows& windows, const WindowSources& sources,
-                const PropagateOptions& options, bool mends, const Scheduler& scheduler,
+                const PropagateOptions& options, bool repairs, const Scheduler& scheduler,
                 WorkspaceState<Real>& workspace, DistanceField<Real>& field) const;
   [[nodiscard]] ExactWindows<Real>& exact(const Alone&);
   [[nodiscard]] MergedWindows<Real>& merged(const Alone&);

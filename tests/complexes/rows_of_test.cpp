@@ -64,6 +64,27 @@ TEST_CASE("points and simplices of any array") {
   CHECK(from_first(TetMesh<double>(coordinates, std::vector<int>{0, 1, 2, 3})) == truth);
 }
 
+TEST_CASE("domains have the precision of the points that they are made of") {
+  const std::vector<std::array<float, 3>> singles = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 1}};
+  const std::vector<std::array<double, 3>> doubles = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 1}};
+  const Matrix<float, true> eigen = {{0, 4, 4, 0, 0, 0, 3, 3, 0, 0, 0, 0}, 4, 3};
+  const std::vector<int> corners = {0, 1, 2}, whole = {0, 0, 0, 4, 0, 0, 4, 3, 0};
+  const std::vector<std::array<Index, 3>> plain = {{0, 1, 2}};
+  const auto same = []<class D>(const D& domain, const std::type_identity<D>&) {
+    CHECK(solve(Serial{}, domain, 0)[2] == Approx(5));
+  };
+  const std::type_identity<TriangleMesh<float>> one;
+  const std::type_identity<TriangleMesh<double>> two;
+  same(TriangleMesh(singles, plain), one);
+  same(TriangleMesh(eigen, corners, {.threads = 1}), one);
+  same(TriangleMesh(doubles, plain), two);
+  same(TriangleMesh(whole, corners), two);
+  same(TetMesh(singles, std::vector<int>{0, 1, 2, 3}), std::type_identity<TetMesh<float>>());
+  same(Wireframe(doubles, std::vector<int>{0, 2}), std::type_identity<Wireframe<double>>());
+  const PointCloud cloud(singles, Neighbours{{0, 2, 4, 6, 6}, {1, 2, 0, 2, 1, 0}});
+  same(cloud, std::type_identity<PointCloud<float>>());
+}
+
 TEST_CASE("a cloud and complexes of simplices of any array") {
   const std::vector<double> truth = {0, 4, 5, 3};
   const std::vector<std::array<float, 3>> singles = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}};

@@ -135,7 +135,7 @@ TEST_CASE("recipes of other packages have the project's version, and options tha
          ++it, ++options) {
       INFO(file << ": " << it->str(1));
       std::string part = it->str(2);
-      for (char& letter : part) letter = char(std::tolower(static_cast<unsigned char>(letter)));
+      for (char& message : part) message = char(std::tolower(static_cast<unsigned char>(message)));
       CHECK((known.find("option(" + it->str(1) + " ") != std::string::npos ||
              known.find("plexway_provider_wanted(" + part + " ") != std::string::npos));
     }

@@ -29,6 +29,9 @@ TEST_CASE("sources are numbers, and what stands in braces") {
   CHECK(solve(Serial{}, mesh, 0).distance == one);
   CHECK(from(std::size_t{0}) == one);
   CHECK(from({0, 2}) == two);
+  CHECK(from(std::vector<std::int64_t>{0, 2}) == two);
+  CHECK(from(std::vector<Index>{2, 0}) == two);
+  CHECK_THROWS_AS(from(std::vector<int>{0, -2}), UsageError);
   CHECK(from({PointSource::at(0), PointSource::at(2)}) == two);
   // Kept beyond the line that they stand in.
   const SourceList list = {PointSource::at(0), VertexSource{.vertices = {1}, .offset = 2}};
@@ -51,6 +54,20 @@ TEST_CASE("the closest point is a source") {
   CHECK(closest(corners, tets, {3, 2, 2}).simplex == 0);
   CHECK_THROWS_AS(closest(corners, std::span(faces).first(0), {0, 0, 0}), UsageError);
   CHECK_THROWS_AS(closest(corners, faces, {0, NAN, 0}), UsageError);
+}
+
+TEST_CASE("the closest point of arrays of any kind") {
+  std::vector<std::array<float, 3>> singles;
+  for (const auto& p : corners)
+    singles.push_back(
+        {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+  const std::vector<std::array<int, 3>> triangles = {{0, 1, 2}, {0, 2, 3}};
+  CHECK(closest(singles, triangles, {4, 3, 1}).vertex == 2);
+  CHECK(closest(corners, std::vector<std::vector<short>>{{0, 1}}, {1, 7, 0}).barycentric[1] ==
+        Approx(.25));
+  CHECK(closest(singles, std::vector<std::array<long, 4>>{{0, 1, 2, 4}}, {3, 2, 2}).simplex == 0);
+  CHECK_THROWS_AS(closest(singles, std::vector<std::vector<int>>(), {0, 0, 0}), UsageError);
+  CHECK_THROWS_AS(closest(singles, std::vector<std::array<int, 5>>{{}}, {0, 0, 0}), UsageError);
 }
 
 TEST_CASE("a field has a size, elements and labels") {

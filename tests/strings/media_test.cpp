@@ -10,7 +10,7 @@
 
 #include "data/mixed_pieces.hpp"
 #include "data/random_stacks.hpp"
-#include "strings/media_solver.hpp"
+#include "strings/solver.hpp"
 
 // Strings through several media, against Snell's law and head waves: exact to rounding.
 
@@ -55,12 +55,12 @@ using Exact = std::function<double(const Position&, const Position&)>;
 /// From a few points at random: the greatest share by which a distance is off, on either side.
 double worst(const Domain& domain, std::mt19937& random, int sources, const Exact& exact) {
   const strings::MediaSpace space(domain.parts);
-  strings::MediaSolver solver(space);
+  strings::Solver solver(space);
   const auto& points = domain.parts.points;
   const auto at = [&](Index p) { return Position{points[p].x, points[p].y, points[p].z}; };
   double worst = 0;
   for (int n = 0; n < sources; ++n) {
-    strings::MediaSource source;
+    strings::Source source;
     source.point = static_cast<Index>(random() % points.size());
     source.at = space.point(source.point);
     solver.solve(std::span(&source, 1));

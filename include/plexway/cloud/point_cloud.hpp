@@ -103,12 +103,20 @@ class PointCloud {
              const CloudOptions& options = {});
 
   /// From points in an array of any kind (rows_of).
-  template <RowsOfNumbers Points>
+  template <detail::AnyRows Points>
   requires(!PlainRows<Points, double, 3>)
       PointCloud(const Points& points, const Neighbours& neighbours,
                  const CloudOptions& options = {})
       : PointCloud(std::span<const std::array<double, 3>>(rows_of<double, 3>(points)), neighbours,
                    options) {}
+
+  /// Does not compile, and says why.
+  template <detail::AnyRows Points>
+  explicit PointCloud(const Points&) : PointCloud({}, {}, {}) {
+    static_assert(!detail::AnyRows<Points>,
+                  "a cloud needs the neighbours of its points: PointCloud<float>(points, "
+                  "flann::surface_neighbours(points)), or lists of your own");
+  }
 
   /// n, twins included.
   [[nodiscard]] std::size_t point_count() const { return summary_.points; }
@@ -146,6 +154,10 @@ class PointCloud {
   std::vector<std::array<double, 3>> more_;
   TriangleMesh<Real> surface_;
 };
+
+/// Of the numbers that the points are: float, or double.
+template <detail::AnyRows Points, class... Rest>
+PointCloud(const Points&, const Rest&...) -> PointCloud<detail::NumberOf<Points>>;
 
 extern template class PointCloud<float>;
 extern template class PointCloud<double>;

@@ -45,6 +45,27 @@ concept RowsOfNumbers = MatrixLike<R> || RangeOfRows<R> || RangeOfNumbers<R>;
 
 namespace detail {
 
+// Something with elements, whatever these are.
+template <class R>
+concept AnyRows = MatrixLike<R> || std::ranges::forward_range<const R>;
+
+// The numbers that rows are made of: float where they are that, else double.
+template <class R>
+consteval auto number_of() {
+  const auto of = []<class T>(std::type_identity<T>) {
+    return std::conditional_t<std::same_as<std::remove_cvref_t<T>, float>, float, double>();
+  };
+  if constexpr (MatrixLike<R>)
+    return of(std::type_identity<decltype(std::declval<const R&>()(0, 0))>());
+  else if constexpr (RangeOfRows<R>)
+    return of(std::type_identity<std::ranges::range_value_t<
+                  const std::remove_cvref_t<std::ranges::range_reference_t<const R>>>>());
+  else
+    return of(std::type_identity<std::ranges::range_value_t<const R>>());
+}
+template <class R>
+using NumberOf = decltype(number_of<R>());
+
 // Do rows say by their type that they have not N numbers?
 template <class R, std::size_t N>
 inline constexpr bool is_of_other_width = false;
@@ -69,8 +90,11 @@ T as_number(Number number, std::size_t row) {
 
 /// Rows of N numbers, of whatever they are given as, copied. Throws InputError for rows of another
 /// length, and for an integer that is no number of a vertex. Cost: linear.
-template <class T, std::size_t N, RowsOfNumbers R>
+template <class T, std::size_t N, detail::AnyRows R>
 [[nodiscard]] std::vector<std::array<T, N>> rows_of(const R& given) {
+  static_assert(RowsOfNumbers<R>,
+                "points and simplices are numbers: a std::vector<std::array<float, 3>>, a matrix "
+                "with a row each, or all numbers in a row");
   static_assert(!detail::is_of_other_width<R, N>,
                 "rows have another length: a point has 3 coordinates, a triangle 3 vertices, a "
                 "tetrahedron 4, an edge 2");
@@ -89,7 +113,7 @@ template <class T, std::size_t N, RowsOfNumbers R>
             detail::as_number<T>(given(i, static_cast<decltype(given.cols())>(k)), rows.size());
       rows.push_back(row);
     }
-  } else {
+  } else if constexpr (RowsOfNumbers<R>) {
     using Element = std::remove_cvref_t<std::ranges::range_reference_t<const R>>;
     const auto take = [&](auto& at, auto end) {
       std::array<T, N> row;
@@ -154,7 +178,7 @@ concept PlainRows = std::convertible_to<const R&, std::span<const std::array<T, 
 
 /// Points and simplices of N corners of which at least one is to be copied.
 template <class Points, class Simplices, std::size_t N>
-concept OtherRows = RowsOfNumbers<Points> && RowsOfNumbers<Simplices> &&
+concept OtherRows = detail::AnyRows<Points> && detail::AnyRows<Simplices> &&
     !(PlainRows<Points, double, 3> && PlainRows<Simplices, Index, N>);
 
 }  // namespace plexway

@@ -128,13 +128,14 @@ namespace plexway {
     "a solid without coordinates has no straight lines in space to measure: use the accuracy "     \
     "fast")                                                                                        \
   X(strings_visibility,                                                                            \
-    "strings know what they see: use the policy saddles, or the accuracy fast")                    \
+    "a visibility other than saddles is for the accuracy fast: leave it out, or use that")         \
   X(strings_exact, "solids have no accuracy exact: ask for accurate")                              \
   X(windows_gl,                                                                                    \
     "the executor GL keeps one label a triangle: use the executor Serial, or the accuracy fast")   \
   X(windows_refraction, "only the accuracy fast refracts paths where speeds jump")                 \
   X(windows_visibility,                                                                            \
-    "windows know what they see: use the policy saddles, or the accuracy fast")                    \
+    "a visibility other than saddles is for the accuracy fast: leave it out, or use that "         \
+    "accuracy")                                                                                    \
   X(windows_labels,                                                                                \
     "the step of the dual queue and `vectorised` are of labels: leave them as they are, or use "   \
     "the accuracy fast")                                                                           \

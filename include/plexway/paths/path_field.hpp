@@ -39,7 +39,13 @@ struct Solved;
 template <class Domain>
 class PathField {
   static_assert(support(Purpose::paths, Domain::kind),
-                "paths are traced on surfaces, solids, wireframes, clouds and mixed domains");
+                "paths are traced on surfaces, solids, wireframes, clouds and mixed domains: make "
+                "a complex of simplices of dimension 1 to 3 one of these");
+
+ public:
+  /// Does not compile, either.
+  template <class... Rest>
+  explicit PathField(const Domain&, const Rest&...) {}
 };
 
 /// On a surface, a solid or a wireframe.

@@ -188,6 +188,10 @@ class TetMesh {
   Rows<Index> pinched_edge_tets_;
 };
 
+/// Of the numbers that the points are: float, or double.
+template <detail::AnyRows Points, detail::AnyRows Tets>
+TetMesh(const Points&, const Tets&, int = 0) -> TetMesh<detail::NumberOf<Points>>;
+
 extern template class TetMesh<float>;
 extern template class TetMesh<double>;
 

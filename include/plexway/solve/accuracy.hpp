@@ -1,5 +1,8 @@
 #pragma once
 
+#include <concepts>
+#include <string_view>
+
 namespace plexway {
 
 /// How accurate distances on a surface, a cloud or in a solid shall be: an error, or a name.
@@ -33,6 +36,14 @@ class Accuracy {
   /// This mean relative error, from 0 (exact) to below 1 (what uses it checks).
   explicit constexpr Accuracy(double error)
       : kind_(error < 1e-5 ? Kind::exact : Kind::merged), error_(error) {}
+
+  /// Does not compile, and says why.
+  template <std::convertible_to<std::string_view> Text>
+  constexpr Accuracy(const Text&) : Accuracy(0.) {
+    static_assert(!std::convertible_to<Text, std::string_view>,
+                  "an accuracy is no text: Accuracy::fast(), Accuracy::accurate(), "
+                  "Accuracy::exact(), or a mean relative error, Accuracy(1e-4)");
+  }
 
   /// By which rule it is reached.
   [[nodiscard]] constexpr Kind kind() const { return kind_; }

@@ -23,6 +23,7 @@ namespace plexway {
 /// @code
 ///   solve(executor, domain, 7);                             // a vertex
 ///   solve(executor, domain, {7, 9});                        // the nearer of two
+///   solve(executor, domain, rim);                           // std::vector<int>
 ///   solve(executor, domain, PointSource::at(7));
 ///   solve(executor, domain, {PointSource::in(3, {.5, .5, 0}), BallSource{...}});
 ///   solve(executor, domain, points);                        // std::vector<PointSource>
@@ -33,6 +34,10 @@ class SourceList {
   template <class Range, class Element>
   static constexpr bool is_row =
       std::convertible_to<const std::remove_reference_t<Range>&, std::span<const Element>>;
+  // An integer, but no letter and no truth value.
+  template <class T>
+  static constexpr bool is_vertex =
+      std::integral<T> && !std::same_as<T, bool> && !std::same_as<T, char>;
   // Does what it holds stay where it is when it goes?
   template <class Range>
   static constexpr bool stays =
@@ -50,6 +55,12 @@ class SourceList {
   SourceList(std::initializer_list<PointSource> points) : held_(std::vector(points)) {}
   SourceList(std::initializer_list<Source> sources) : held_(std::vector(sources)) {}
   ///@}
+  /// Vertices in a row, such as std::vector<int>; copied.
+  template <std::ranges::input_range Range>
+  requires(is_vertex<std::ranges::range_value_t<const Range>>) SourceList(const Range& vertices)
+      : held_(std::vector<PointSource>()) {
+    for (const auto v : vertices) std::get<std::vector<PointSource>>(held_).push_back(vertex_at(v));
+  }
   /// One point.
   SourceList(const PointSource& one) : held_(one) {}
   /// One source of any kind: a set, ball, curve or simplex.

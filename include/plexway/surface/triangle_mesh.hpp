@@ -245,6 +245,11 @@ class TriangleMesh {
   Rows<ChordEnd> chords_;
 };
 
+/// Of the numbers that the points are: float, or double.
+template <detail::AnyRows Points, detail::AnyRows Faces>
+TriangleMesh(const Points&, const Faces&, const SurfaceHints& = {})
+    -> TriangleMesh<detail::NumberOf<Points>>;
+
 extern template class TriangleMesh<float>;
 extern template class TriangleMesh<double>;
 

@@ -140,6 +140,10 @@ class Wireframe {
   Rows<Index> arc_of_edge_;  // from the edge's first vertex to its second
 };
 
+/// Of the numbers that the points are: float, or double.
+template <detail::AnyRows Points, detail::AnyRows Edges>
+Wireframe(const Points&, const Edges&) -> Wireframe<detail::NumberOf<Points>>;
+
 extern template class Wireframe<float>;
 extern template class Wireframe<double>;
 

@@ -193,7 +193,7 @@ void tell_addresses(PieceRanks* ranks, const PartPieces<Real>& pieces,
   }
 }
 
-/// What letters of labels are addressed by: of own triangles that share an edge with one of a peer
+/// What messages of labels are addressed by: of own triangles that share an edge with one of a peer
 /// the numbers that they have there as ghosts.
 template <class Real>
 void list_slots(const PartPiece<Real>& part, CutPiece& cut) {
@@ -218,7 +218,7 @@ void list_slots(const PartPiece<Real>& part, CutPiece& cut) {
   cut.peers.back().slot_begin = static_cast<Index>(cut.slots.size());
 }
 
-/// The peers of all pieces, for who carries letters between them.
+/// The peers of all pieces, for who carries messages between them.
 void share_peers(PieceRanks* ranks, std::vector<CutPiece>& cuts) {
   share_pieces(
       ranks, cuts.size(),

@@ -15,8 +15,8 @@
 
 #include "complexes/common/number_range.hpp"
 #include "executors/drive.hpp"
-#include "executors/parts/part_mending.hpp"
 #include "executors/parts/part_pieces.hpp"
+#include "executors/parts/part_repair.hpp"
 #include "executors/parts/part_sources.hpp"
 #include "executors/parts/parted_labels.hpp"
 #include "executors/parts/parted_windows.hpp"
@@ -65,7 +65,7 @@ class PartSolve {
     field_.statistics = windows.statistics();
     field_.complete = windows.complete();
     count_reached_triangles();
-    if (merged) mend();
+    if (merged) repair();
     return true;
   }
 
@@ -103,7 +103,7 @@ class PartSolve {
       field_.statistics = solve.statistics();
       known_ = solve.read_out();
       agree<Real, Real>(team_.ranks(), pieces_, known_, sent());
-      if (options_.visibility == Visibility::saddles) mend();
+      if (options_.visibility == Visibility::saddles) repair();
       solve.read_out_rest(known_);
       agree<Real, Real>(team_.ranks(), pieces_, known_, sent());
     });
@@ -131,13 +131,13 @@ class PartSolve {
     field_.statistics.reached_simplices = sum_of(team_.ranks(), reached);
   }
 
-  void mend() {
-    const auto mended =
+  void repair() {
+    const auto repaired =
         sources_.all.size() > 1
-            ? PartMending<Real, true>(team_, pieces_, sources_, known_).run(sent())
-            : PartMending<Real, false>(team_, pieces_, sources_, known_).run(sent());
-    field_.statistics.lowered_vertices = mended.lowered;
-    field_.statistics.raised_vertices = mended.raised;
+            ? PartRepair<Real, true>(team_, pieces_, sources_, known_).run(sent())
+            : PartRepair<Real, false>(team_, pieces_, sources_, known_).run(sent());
+    field_.statistics.lowered_vertices = repaired.lowered;
+    field_.statistics.raised_vertices = repaired.raised;
   }
 
   /// To the caller's unit, and together.

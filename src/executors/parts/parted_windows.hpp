@@ -101,7 +101,7 @@ class PartedWindows {
         });
   }
 
-  /// Each in its piece; the others hear of it by letters.
+  /// Each in its piece; the others hear of it by messages.
   template <class Scheduler>
   bool fill_holes(const Scheduler& scheduler) {
     return scheduler.any(windows_.size(), [&](std::size_t i) {

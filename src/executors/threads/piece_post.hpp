@@ -15,21 +15,21 @@
 
 namespace plexway {
 
-/// In a message, of a piece that posted: then come entries, and then the letters of each in turn.
+/// In a message, of a piece that posted: then come entries, and then the messages of each in turn.
 struct MailHead {
   Index piece;
   Index peers;  ///< so many entries
-  std::uint64_t letters;
+  std::uint64_t messages;
 };
 struct MailEntry {
   Index peer;  ///< of the piece's
-  Index letters;
+  Index messages;
 };
 
 /// What pieces of one process tell those of others in supersteps: one message to each, and the sums
 /// and minima by the way. Of a piece that is another's there is a copy of what it posted to ours.
 /// Does nothing for a process alone.
-template <class Letter>
+template <class Message>
 class PiecePost {
  public:
   PiecePost(PieceRanks* ranks, const Cut& cut)
@@ -50,24 +50,24 @@ class PiecePost {
     const CutPiece& cut = cut_.pieces[piece];
     for (std::size_t peer = 0; peer < cut.peer_count(); ++peer)
       if (const std::size_t owner = deal_.owner(cut.peers[peer].piece);
-          owner != deal_.ours && box.has_letters(superstep, peer))
+          owner != deal_.ours && box.has_messages(superstep, peer))
         reported_[owner].push_back(static_cast<Index>(peer));
     for (std::size_t r = 0; r < reported_.size(); ++r) {
       if (reported_[r].empty()) continue;
       MailHead head{piece, static_cast<Index>(reported_[r].size()), 0};
       for (const Index peer : reported_[r])
-        head.letters += box.template letters<Letter>(superstep, peer).size();
+        head.messages += box.template messages<Message>(superstep, peer).size();
       mail_.to(r).add(head);
       for (const Index peer : reported_[r])
         mail_.to(r).add(MailEntry{
-            peer, static_cast<Index>(box.template letters<Letter>(superstep, peer).size())});
+            peer, static_cast<Index>(box.template messages<Message>(superstep, peer).size())});
       for (const Index peer : reported_[r])
-        mail_.to(r).add(box.template letters<Letter>(superstep, peer));
+        mail_.to(r).add(box.template messages<Message>(superstep, peer));
       reported_[r].clear();
     }
   }
 
-  /// All processes meet: sums and minima become those of all, letters arrive, and got(piece) is
+  /// All processes meet: sums and minima become those of all, messages arrive, and got(piece) is
   /// called for each piece of ours that has some. Returns the bytes sent.
   template <class Got>
   std::size_t meet(std::size_t superstep, std::span<std::uint64_t> sums, double& least,
@@ -86,11 +86,11 @@ class PiecePost {
       Outbox& box = foreign_[head.piece].of(superstep);
       entries_.clear();
       for (Index i = 0; i < head.peers; ++i) entries_.push_back(mail.take<MailEntry>());
-      box.start<Letter>(superstep, cut.peer_count(), head.letters);
+      box.start<Message>(superstep, cut.peer_count(), head.messages);
       auto entry = entries_.begin();
       for (std::size_t peer = 0; peer < cut.peer_count(); ++peer) {
         if (entry != entries_.end() && entry->peer == peer) {
-          for (Index i = 0; i < entry->letters; ++i) box.add(mail.take<Letter>());
+          for (Index i = 0; i < entry->messages; ++i) box.add(mail.take<Message>());
           got(cut.peers[peer].piece);
           ++entry;
         }

@@ -29,14 +29,14 @@
 namespace plexway {
 
 /// A propagation in pieces by a team. In a superstep each piece that has something to do takes the
-/// letters of the superstep before, runs up to a horizon, and posts what its peers must know. So a
-/// piece depends on what it knew, on letters in a fixed order and on the horizon, which depends on
+/// messages of the superstep before, runs up to a horizon, and posts what its peers must know. So a
+/// piece depends on what it knew, on messages in a fixed order and on the horizon, which depends on
 /// sums and minima over all: the result is the same with any number of threads, and with any number
 /// of processes that share the pieces.
 ///
 /// A piece:
-///   mail()              its letters
-///   take(letter), run(horizon, most, updates), post(superstep, work)
+///   mail()              its messages
+///   take(message), run(horizon, most, updates), post(superstep, work)
 ///   nearest()           no nearer label waits in it
 ///   statistics()        what it did so far
 ///   weight()            if it has that: summed up for goes_on
@@ -47,7 +47,7 @@ template <class Piece>
 class Supersteps {
  public:
   using Real = typename Piece::Number;
-  using Letter = typename Piece::Letter;
+  using Message = typename Piece::Message;
 
   /// `pieces` is indexed by their numbers in the cut: null where another process has it. `pace`: so
   /// far the horizon moves on in a superstep, in the unit inside, which is `unit` of the caller's;
@@ -137,8 +137,8 @@ class Supersteps {
   /// Of all pieces.
   struct Sums {
     Real nearest;  ///< of what waits or was told
-    std::size_t expansions = 0, first = 0, runs = 0, letters = 0, sent = 0;  // of a superstep
-    std::size_t updates = 0, reached = 0, weight = 0;                        // until now
+    std::size_t expansions = 0, first = 0, runs = 0, messages = 0, sent = 0;  // of a superstep
+    std::size_t updates = 0, reached = 0, weight = 0;                         // until now
   };
 
   [[nodiscard]] static std::size_t weight_of(const Piece& piece) {
@@ -199,8 +199,8 @@ class Supersteps {
     for (std::size_t peer = 0; peer < cut.peer_count(); ++peer) {
       const CutPiece::Peer& from = cut.peers[peer];
       Outbox& box = mail_of(from.piece).of(superstep_ - 1);
-      for (const Letter& letter : box.template letters<Letter>(superstep_ - 1, from.place))
-        piece.take(letter);
+      for (const Message& message : box.template messages<Message>(superstep_ - 1, from.place))
+        piece.take(message);
     }
     After& after = after_[p];
     after.work = piece.run(horizon_, most, updates_);
@@ -224,7 +224,7 @@ class Supersteps {
     advance();
   }
 
-  /// Sums up, with the other processes if there are any: who waits for letters is awake then.
+  /// Sums up, with the other processes if there are any: who waits for messages is awake then.
   Sums meet(std::span<const std::size_t> ran) {
     constexpr Real infinity = std::numeric_limits<Real>::infinity();
     Sums all{.nearest = infinity};
@@ -234,13 +234,13 @@ class Supersteps {
       const After& after = after_[p];
       all.expansions += after.work.expansions;
       all.first += after.work.first;
-      all.letters += after.work.letters;
-      if (after.work.letters == 0) continue;
+      all.messages += after.work.messages;
+      if (after.work.messages == 0) continue;
       all.nearest = std::min(all.nearest, after.told);
       const CutPiece& cut = cut_.pieces[p];
       Outbox& box = pieces_[p]->mail().of(superstep_);
       for (std::size_t peer = 0; peer < cut.peer_count(); ++peer)
-        if (box.has_letters(superstep_, peer)) awake_[cut.peers[peer].piece] = 1;
+        if (box.has_messages(superstep_, peer)) awake_[cut.peers[peer].piece] = 1;
       post_.collect(static_cast<Index>(p), box, superstep_);
     }
     for (const Index p : ours_) {
@@ -251,7 +251,7 @@ class Supersteps {
       all.weight += after.weight;
     }
     if (post_.alone()) return all;
-    std::array<std::uint64_t, 7> sums = {all.expansions, all.first,   all.runs,  all.letters,
+    std::array<std::uint64_t, 7> sums = {all.expansions, all.first,   all.runs,  all.messages,
                                          all.updates,    all.reached, all.weight};
     double nearest = static_cast<double>(all.nearest);
     all.sent = post_.meet(superstep_, sums, nearest, [&](std::size_t piece) { awake_[piece] = 1; });
@@ -269,8 +269,8 @@ class Supersteps {
 
   void advance() {
     const Sums sums = meet(active_);
-    counts_.letters += sums.letters;
-    counts_.bytes += sums.letters * sizeof(Letter);
+    counts_.messages += sums.messages;
+    counts_.bytes += sums.messages * sizeof(Message);
     counts_.sent += sums.sent;
     ++counts_.supersteps;
     counts_.runs += sums.runs;
@@ -340,7 +340,7 @@ class Supersteps {
   const Cut& cut_;
   std::vector<Piece*> pieces_;
   std::vector<Index> ours_;
-  PiecePost<Letter> post_;
+  PiecePost<Message> post_;
   Real pace_;
   std::size_t simplices_;
   double unit_;
@@ -350,7 +350,7 @@ class Supersteps {
 
   // Changed alone.
   std::vector<After> after_;
-  std::vector<std::uint8_t> awake_;  // has letters to take
+  std::vector<std::uint8_t> awake_;  // has messages to take
   std::vector<std::size_t> active_;  // of ours
   std::vector<std::size_t> grants_;  // of each that is active, where not all get the same share
   Real horizon_ = 0;

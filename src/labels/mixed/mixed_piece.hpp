@@ -61,7 +61,7 @@ class MixedPiece {
   /// Nothing waits in any piece: the horizon starts anew.
   virtual void hold() = 0;
   /// Where nothing waits, looks at the whole piece. True if labels wait then.
-  virtual bool mend() = 0;
+  virtual bool repair() = 0;
   /// What was expanded since this was emptied, some repeatedly: simplices, of a wireframe vertices.
   [[nodiscard]] std::vector<Index>& expanded() { return expanded_; }
 

@@ -263,7 +263,7 @@ class MixedPropagation {
     if (pace_ < infinity)
       for (const auto& piece : pieces_) piece->hold();
     each([&](Index p) {
-      if (std::exchange(ran_[p], 0)) said_[p] = pieces_[p]->mend();
+      if (std::exchange(ran_[p], 0)) said_[p] = pieces_[p]->repair();
     });
     return any_said() || carry_late() || bend();
   }
@@ -473,7 +473,7 @@ class MixedPropagation {
   std::size_t spent_before_ = 0;    // when the last turn began
   std::vector<std::size_t> share_;  // by piece: of what may be expanded, in this turn
   std::vector<char> said_;          // by piece: its answer
-  std::vector<char> ran_;           // by piece, since it was mended
+  std::vector<char> ran_;           // by piece, since it was repaired
   Real pace_;
   Index running_ = none;  // alone, and on this thread
   bool complete_ = true;

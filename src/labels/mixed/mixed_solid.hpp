@@ -58,8 +58,8 @@ class MixedSolid final : public MixedPiece<Real> {
   }
   Real nearest() const override { return wave_.queue().nearest() * unit_; }
   void hold() override { wave_.queue().set_horizon(0); }
-  bool mend() override {
-    if (offer_around(infinity) || propagation_.mend(repairs_)) return true;
+  bool repair() override {
+    if (offer_around(infinity) || propagation_.repair(repairs_)) return true;
     repairs_ = 0;
     return false;
   }

@@ -46,8 +46,8 @@ class MixedSurface final : public MixedPiece<Real> {
   }
   Real nearest() const override { return wave_.queue().nearest() * unit_; }
   void hold() override { wave_.queue().set_horizon(0); }
-  bool mend() override {
-    if (propagation_.mend(revivals_)) return true;
+  bool repair() override {
+    if (propagation_.repair(revivals_)) return true;
     revivals_ = 0;
     return false;
   }

@@ -44,7 +44,7 @@ class MixedWire final : public MixedPiece<Real> {
   }
   Real nearest() const override { return waiting_.nearest() * unit_; }
   void hold() override { waiting_.set_horizon(0); }
-  bool mend() override { return false; }
+  bool repair() override { return false; }
 
   Found at_vertex(Index v) override {
     return {std::abs(workspace_.vertex[v]) * unit_, workspace_.vertex_source[v]};

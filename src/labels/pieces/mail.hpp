@@ -19,59 +19,59 @@ namespace plexway {
 /// What a piece posts in one superstep, peer by peer. Plain data, so that it may as well be sent.
 class Outbox {
  public:
-  /// Empty, for so many peers, with room for `most` letters.
-  template <class Letter>
+  /// Empty, for so many peers, with room for `most` messages.
+  template <class Message>
   void start(std::size_t superstep, std::size_t peers, std::size_t most) {
-    static_assert(std::is_trivially_copyable_v<Letter>);
+    static_assert(std::is_trivially_copyable_v<Message>);
     superstep_ = superstep;
     begin_.assign(peers + 1, 0);
     peer_ = count_ = 0;
-    letters_.reserve<Letter>(most);
+    messages_.reserve<Message>(most);
   }
   /// One more to the peer in turn.
-  template <class Letter>
-  void add(const Letter& letter) {
-    letters_.reserve<Letter>(0)[count_++] = letter;
+  template <class Message>
+  void add(const Message& message) {
+    messages_.reserve<Message>(0)[count_++] = message;
   }
   void end_peer() { begin_[++peer_] = count_; }
   /// As `start`, where it is known how many each peer gets: they may then be put in any order.
-  template <class Letter>
+  template <class Message>
   void start(std::size_t superstep, std::span<const std::size_t> counts) {
-    start<Letter>(superstep, counts.size(),
-                  std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
+    start<Message>(superstep, counts.size(),
+                   std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
     std::partial_sum(counts.begin(), counts.end(), begin_.begin() + 1);
     next_.assign(begin_.begin(), begin_.end());
     count_ = begin_.back();
   }
   /// One more to that peer, behind those that it has.
-  template <class Letter>
-  void put(std::size_t peer, const Letter& letter) {
-    letters_.reserve<Letter>(0)[next_[peer]++] = letter;
+  template <class Message>
+  void put(std::size_t peer, const Message& message) {
+    messages_.reserve<Message>(0)[next_[peer]++] = message;
   }
   /// There are none in any other superstep.
   void forget() { superstep_ = never; }
 
-  template <class Letter>
-  [[nodiscard]] std::span<const Letter> letters(std::size_t superstep, std::size_t peer) {
+  template <class Message>
+  [[nodiscard]] std::span<const Message> messages(std::size_t superstep, std::size_t peer) {
     if (superstep != superstep_) return {};
-    return {letters_.reserve<Letter>(0) + begin_[peer], begin_[peer + 1] - begin_[peer]};
+    return {messages_.reserve<Message>(0) + begin_[peer], begin_[peer + 1] - begin_[peer]};
   }
-  [[nodiscard]] bool has_letters(std::size_t superstep, std::size_t peer) const {
+  [[nodiscard]] bool has_messages(std::size_t superstep, std::size_t peer) const {
     return superstep == superstep_ && begin_[peer + 1] > begin_[peer];
   }
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t bytes() const {
-    return letters_.bytes() + (begin_.capacity() + next_.capacity()) * sizeof(std::size_t);
+    return messages_.bytes() + (begin_.capacity() + next_.capacity()) * sizeof(std::size_t);
   }
 
  private:
   static constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
-  Room letters_;
+  Room messages_;
   std::vector<std::size_t> begin_, next_;
   std::size_t superstep_ = never, peer_ = 0, count_ = 0;
 };
 
-/// A piece's letters of this superstep and of the one before: nobody reads what somebody writes.
+/// A piece's messages of this superstep and of the one before: nobody reads what somebody writes.
 struct Outboxes {
   Outbox box[2];
 
@@ -83,7 +83,7 @@ struct Outboxes {
 struct PieceWork {
   std::size_t expansions = 0;
   std::size_t first = 0;  ///< simplices reached that no label had reached before
-  std::size_t letters = 0;
+  std::size_t messages = 0;
 };
 
 /// A piece's turns, one horizon after the other.
@@ -108,27 +108,27 @@ class PieceTurns {
 
 /// Posts offers to simplices of other pieces: peer by peer, each in the order in which they were
 /// made. None is left. Returns the least of their distances.
-template <class Real, class Letter, class PieceOf>
-Real post_offers(std::vector<Letter>& letters, const CutPiece& piece, const PieceOf& piece_of,
+template <class Real, class Message, class PieceOf>
+Real post_offers(std::vector<Message>& messages, const CutPiece& piece, const PieceOf& piece_of,
                  Outboxes& mail, std::size_t superstep, PieceWork& work) {
   Real least = std::numeric_limits<Real>::infinity();
-  work.letters = letters.size();
-  if (letters.empty()) return least;
+  work.messages = messages.size();
+  if (messages.empty()) return least;
   std::size_t place = 0;  // often that of the one before
-  const auto peer_of = [&](const Letter& letter) {
-    const auto other = static_cast<Index>(piece_of(letter.to));
+  const auto peer_of = [&](const Message& message) {
+    const auto other = static_cast<Index>(piece_of(message.to));
     if (piece.peers[place].piece != other) place = piece.place_of(other);
     return place;
   };
   std::vector<std::size_t> counts(piece.peer_count(), 0);
-  for (const Letter& letter : letters) ++counts[peer_of(letter)];
+  for (const Message& message : messages) ++counts[peer_of(message)];
   Outbox& box = mail.of(superstep);
-  box.start<Letter>(superstep, counts);
-  for (const Letter& letter : letters) {
-    least = std::min(least, letter.distance);
-    box.put(peer_of(letter), letter);
+  box.start<Message>(superstep, counts);
+  for (const Message& message : messages) {
+    least = std::min(least, message.distance);
+    box.put(peer_of(message), message);
   }
-  letters.clear();
+  messages.clear();
   return least;
 }
 

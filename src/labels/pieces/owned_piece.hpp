@@ -19,7 +19,7 @@ namespace plexway {
 
 /// An offer to a simplex of another piece.
 template <class Real, class SimplexLabel>
-struct OwnedLetter {
+struct OwnedMessage {
   Index to;  ///< the domain's number
   Index source;
   Index hinge;
@@ -29,13 +29,13 @@ struct OwnedLetter {
 
 /// The front of a piece that shares the labels of the whole: its own simplices it reads and writes
 /// there; what belongs to another piece is as if it were unreached, and offers to it become
-/// letters.
+/// messages.
 template <class Real, class SimplexLabel, bool kLabels>
 class OwnedFront : public Wavefront<Real, SimplexLabel, DualQueue<Real>, kLabels> {
  public:
   using Base = Wavefront<Real, SimplexLabel, DualQueue<Real>, kLabels>;
   using typename Base::Label;
-  using Letter = OwnedLetter<Real, SimplexLabel>;
+  using Message = OwnedMessage<Real, SimplexLabel>;
 
   /// `piece_of` each simplex; `none` of the sentinel.
   OwnedFront(const Base& base, const Index* piece_of, Index piece)
@@ -49,15 +49,15 @@ class OwnedFront : public Wavefront<Real, SimplexLabel, DualQueue<Real>, kLabels
     if (piece_of_[s] == piece_) [[likely]]
       Base::accept(s, hinge, label, distance, source);
     else
-      letters_.push_back({s, source, static_cast<Index>(hinge), distance, label});
+      messages_.push_back({s, source, static_cast<Index>(hinge), distance, label});
   }
 
-  [[nodiscard]] std::vector<Letter>& letters() { return letters_; }
+  [[nodiscard]] std::vector<Message>& messages() { return messages_; }
 
  private:
   const Index* piece_of_;
   Index piece_;
-  std::vector<Letter> letters_;
+  std::vector<Message> messages_;
 };
 
 /// What a piece keeps from solve to solve where labels are the whole's.
@@ -85,14 +85,14 @@ struct OwnedPieces {
 };
 
 /// A piece of a domain whose rule needs the records around a simplex, and looks at the labels of
-/// none but its neighbours: records and labels are the whole's, and a letter is an offer over the
+/// none but its neighbours: records and labels are the whole's, and a message is an offer over the
 /// cut. Its own labels only this piece reads or writes. Not to be moved.
 template <class Real, class SimplexLabel, class Propagation, bool kLabels>
 class OwnedPiece {
  public:
   using Number = Real;
   using Front = OwnedFront<Real, SimplexLabel, kLabels>;
-  using Letter = typename Front::Letter;
+  using Message = typename Front::Message;
   using Rule = decltype(std::declval<const Propagation&>().rule().on(std::declval<Front&>()));
   using Expander =
       decltype(std::declval<const Propagation&>().expander(std::declval<Front&>(), false));
@@ -123,9 +123,9 @@ class OwnedPiece {
   }
   void set_last_resort(bool last_resort) { last_resort_ = last_resort; }
 
-  void take(const Letter& letter) {
-    if (letter.distance < to_beat(letter.to))
-      front_.take(letter.to, letter.hinge, letter.label, letter.distance, letter.source);
+  void take(const Message& message) {
+    if (message.distance < to_beat(message.to))
+      front_.take(message.to, message.hinge, message.label, message.distance, message.source);
   }
 
   PieceWork run(Real horizon, std::size_t most, std::size_t) {
@@ -138,8 +138,8 @@ class OwnedPiece {
 
   Real post(std::size_t superstep, PieceWork& work) {
     return post_offers<Real>(
-        front_.letters(), own_, [this](Index s) { return cut_.piece_of[s]; }, room_.mail, superstep,
-        work);
+        front_.messages(), own_, [this](Index s) { return cut_.piece_of[s]; }, room_.mail,
+        superstep, work);
   }
 
   [[nodiscard]] PropagateStatistics statistics() const {

@@ -40,14 +40,14 @@ class PieceFront : public Wavefront<Real, SimplexLabel, DualQueue<Real>, kLabels
   Index own_;
 };
 
-/// A piece of a surface in one solve. A letter is the label of a triangle at a cut, for the ghost
+/// A piece of a surface in one solve. A message is the label of a triangle at a cut, for the ghost
 /// that it is elsewhere; there it is expanded as if it were the piece's own. Not to be moved.
 template <class Real, class SimplexLabel, class Rule, bool kLabels>
 class TrianglePiece {
  public:
   using Number = Real;
   using Front = PieceFront<Real, SimplexLabel, kLabels>;
-  struct Letter {
+  struct Message {
     Index to;  ///< the ghost
     Index source;
     Index hinge;
@@ -119,16 +119,17 @@ class TrianglePiece {
   /// No label that waits is nearer; +inf if none does.
   [[nodiscard]] Real nearest() const { return front_.queue().nearest(); }
 
-  /// A letter to one of its ghosts.
-  void take(const Letter& letter) {
-    front_.put(letter.to, letter.label);
-    const Real d = spread_.rule().distance(letter.to);
+  /// A message to one of its ghosts.
+  void take(const Message& message) {
+    front_.put(message.to, message.label);
+    const Real d = spread_.rule().distance(message.to);
     // Nothing is offered back over the hinge that it came by.
-    const unsigned ways = sheet_.leads_in[letter.to - cut_.own] & ~(1u << letter.hinge);
+    const unsigned ways = sheet_.leads_in[message.to - cut_.own] & ~(1u << message.hinge);
     if (ways == 0)
-      front_.know(letter.to, letter.hinge, letter.label, letter.source);
+      front_.know(message.to, message.hinge, message.label, message.source);
     else
-      from_outside([&] { front_.take(letter.to, letter.hinge, letter.label, d, letter.source); });
+      from_outside(
+          [&] { front_.take(message.to, message.hinge, message.label, d, message.source); });
   }
 
   /// As far as the horizon or so many expansions. `updates`: of all pieces until now.
@@ -160,16 +161,16 @@ class TrianglePiece {
       least = std::min(least, d);
     }
     if (!(least < infinity)) return least;
-    box.start<Letter>(superstep, cut_.peer_count(), cut_.slots.size());
+    box.start<Message>(superstep, cut_.peer_count(), cut_.slots.size());
     for (std::size_t peer = 0; peer < cut_.peer_count(); ++peer) {
       for (const CutPiece::Slot& slot : cut_.slots_of(peer))
         if (room_.is_new[slot.here] != 0)
-          box.add(Letter{slot.there, front_.source(slot.here),
-                         static_cast<Index>(front_.hinge(slot.here)), front_.label(slot.here)});
+          box.add(Message{slot.there, front_.source(slot.here),
+                          static_cast<Index>(front_.hinge(slot.here)), front_.label(slot.here)});
       box.end_peer();
     }
     std::fill(room_.is_new.begin(), room_.is_new.end(), 0);
-    work.letters = box.count();
+    work.messages = box.count();
     return least;
   }
 

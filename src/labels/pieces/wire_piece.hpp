@@ -18,7 +18,7 @@ namespace plexway {
 
 /// An offer to a vertex of another piece.
 template <class Real>
-struct WireLetter {
+struct WireMessage {
   Index to, source;
   Real distance;
 };
@@ -27,12 +27,12 @@ struct WireLetter {
 template <class Real>
 struct WireRoom {
   FrontStorage front;
-  std::vector<WireLetter<Real>> letters;  ///< to be posted
+  std::vector<WireMessage<Real>> messages;  ///< to be posted
   Outboxes mail;
 
   [[nodiscard]] std::size_t bytes() const {
     return front.capacity * 2 * sizeof(Index) + front.heap.capacity() * sizeof(front.heap[0]) +
-           mail.box[0].bytes() + mail.box[1].bytes() + letters.capacity() * sizeof(letters[0]);
+           mail.box[0].bytes() + mail.box[1].bytes() + messages.capacity() * sizeof(messages[0]);
   }
 };
 
@@ -67,12 +67,12 @@ struct WirePieces {
 };
 
 /// A range of a wireframe's vertices. Records and labels are the whole's; its own labels only this
-/// piece reads or writes, and what it offers to others is a letter. Not to be moved.
+/// piece reads or writes, and what it offers to others is a message. Not to be moved.
 template <class Real, class Step, bool kLabels>
 class WirePiece {
  public:
   using Number = Real;
-  using Letter = WireLetter<Real>;
+  using Message = WireMessage<Real>;
   using Spread = WireSpread<Real, Step, kLabels>;
 
   /// `label` of all vertices; `spread` over them; `step` of the queues; after `patience` looks
@@ -89,7 +89,7 @@ class WirePiece {
         front_(prepare(room_, end_ - begin_), step),
         patience_(patience) {
     for (Outbox& box : room_.mail.box) box.forget();
-    room_.letters.clear();
+    room_.messages.clear();
   }
   WirePiece(const WirePiece&) = delete;
   WirePiece& operator=(const WirePiece&) = delete;
@@ -100,8 +100,8 @@ class WirePiece {
   /// A label that waits, from outside the supersteps.
   void give(Index v) { front_.push(v, std::abs(label_[v])); }
 
-  void take(const Letter& letter) {
-    spread_.offer(letter.to, letter.distance, letter.source, front_);
+  void take(const Message& message) {
+    spread_.offer(message.to, message.distance, message.source, front_);
   }
 
   PieceWork run(Real horizon, std::size_t most, std::size_t) {
@@ -116,7 +116,7 @@ class WirePiece {
 
   Real post(std::size_t superstep, PieceWork& work) {
     return post_offers<Real>(
-        room_.letters, own_, [this](Index v) { return cut_.piece_of(v); }, room_.mail, superstep,
+        room_.messages, own_, [this](Index v) { return cut_.piece_of(v); }, room_.mail, superstep,
         work);
   }
 
@@ -135,7 +135,7 @@ class WirePiece {
     Index begin, count;
     [[nodiscard]] bool has(Index v) const { return v - begin < count; }
     void tell(Index to, Real distance, Index source) const {
-      piece.room_.letters.push_back({to, source, distance});
+      piece.room_.messages.push_back({to, source, distance});
     }
   };
 

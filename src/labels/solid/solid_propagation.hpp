@@ -68,7 +68,7 @@ class SolidPropagation {
     do {
       spread_all(last_resort(repairs));
       if (front_.out_of_budget()) return;
-    } while (mend(repairs, search));
+    } while (repair(repairs, search));
   }
 
   // The parts of run, for those who do more in between.
@@ -81,8 +81,8 @@ class SolidPropagation {
       if (!front_.take_stock(rule_.distance(t))) return;
   }
   /// When none waits. True if some wait again; `repairs` counts how often.
-  bool mend(int& repairs) {
-    return mend(repairs, [&](const auto& look) { look_everywhere(look); });
+  bool repair(int& repairs) {
+    return repair(repairs, [&](const auto& look) { look_everywhere(look); });
   }
 
   /// Does t lack a label or know a better one than a neighbour has? For searches.
@@ -117,8 +117,8 @@ class SolidPropagation {
     for (Index t = 0; t < tets; ++t) look(t);
   }
   template <class Search>
-  bool mend(int& repairs, const Search& search) {
-    return pass_pinches() || (++repairs < 64 && repair(repairs, search));
+  bool repair(int& repairs, const Search& search) {
+    return pass_pinches() || (++repairs < 64 && repair_round(repairs, search));
   }
 
   /// The hot loop, until none waits (true) or the share of the budget is spent.
@@ -173,7 +173,7 @@ class SolidPropagation {
   /// without a label, or with one much longer than a neighbour's and the way between, they are
   /// taken after all, with a bend on the face.
   template <class Search>
-  bool repair(int round, const Search& search) {
+  bool repair_round(int round, const Search& search) {
     const std::size_t before = front_.updates();
     std::size_t unreached = 0;
     if (!rule_.drops() && front_.reached_count() == mesh_.tet_count()) return false;

@@ -73,7 +73,7 @@ class TrianglePropagation {
     do {
       spread_all(last_resort(revivals));
       if (front_.out_of_budget()) return;
-    } while (mend(revivals));
+    } while (repair(revivals));
   }
 
   [[nodiscard]] const Rule& rule() const { return spread_.rule(); }
@@ -81,7 +81,7 @@ class TrianglePropagation {
   // the parts of run, for those who do more in between or must not look at the whole
   static bool last_resort(int revivals) { return revivals > 8; }
   /// Once none waits: true if some wait again.
-  bool mend(int& revivals) {
+  bool repair(int& revivals) {
     ++revivals;
     return pass_pinches(mesh_.pinched()) || revive();
   }

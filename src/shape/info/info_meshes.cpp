@@ -62,8 +62,11 @@ SolidSurvey survey_solid(const AnyShape& domain) {
   const auto& solid = std::get<io::Tets>(domain.data());
   SolidSurvey survey;
   survey.edge = spread_of(lengths_of(edges_of(domain)));
-  std::size_t slender = 0;
-  for (const auto& tet : solid.tets) {
+  std::size_t slender = 0, measured = 0;
+  for (std::array<std::uint32_t, 4> tet : solid.tets) {
+    std::sort(tet.begin(), tet.end());
+    if (std::adjacent_find(tet.begin(), tet.end()) != tet.end()) continue;  // left out
+    ++measured;
     std::array<Vector, 4> corners;
     for (std::size_t i = 0; i < 4; ++i) corners[i] = solid.positions[tet[i]];
     const Measure found = measure(corners);
@@ -71,7 +74,7 @@ SolidSurvey survey_solid(const AnyShape& domain) {
     survey.largest_volume = std::max(survey.largest_volume, found.volume);
     if (found.slender) ++slender;
   }
-  survey.slender_share = static_cast<double>(slender) / static_cast<double>(solid.tets.size());
+  survey.slender_share = static_cast<double>(slender) / static_cast<double>(measured);
   survey.coincident_vertices = count_coincident(domain);
   return survey;
 }
@@ -117,7 +120,7 @@ InfoReport info_of(const AnyShape& domain, const io::Tets& solid) {
               " where separate parts of the solid touch in one point only");
   if (summary.components > 1) report.warnings.push_back(components_warning(summary.components));
   report.warn(summary.unreferenced_vertices, "unreferenced vertices",
-              " in no tetrahedron, so they get inf");
+              " in no tetrahedron: unreachable (inf)");
   report.warn(survey.coincident_vertices, "vertices",
               " exactly where another one lies: if the two sides of a cut have their own vertices, "
               "paths go round it; --merge 0 joins them");
@@ -163,8 +166,11 @@ bool is_slender(const std::array<double, 3>& side) {
 SurfaceSurvey survey_surface(const io::Triangles& surface) {
   SurfaceSurvey survey;
   double sum = 0;
-  std::size_t slender = 0;
+  std::size_t slender = 0, measured = 0;
   for (const auto& corners : surface.triangles) {
+    const auto& [a, b, c] = corners;
+    if (a == b || b == c || c == a) continue;  // left out
+    ++measured;
     std::array<double, 3> side;
     for (std::size_t i = 0; i < 3; ++i) {
       side[i] = length(surface.positions[corners[i]], surface.positions[corners[(i + 1) % 3]]);
@@ -174,7 +180,7 @@ SurfaceSurvey survey_surface(const io::Triangles& surface) {
     }
     if (is_slender(side)) ++slender;
   }
-  const auto triangles = static_cast<double>(surface.triangles.size());
+  const auto triangles = static_cast<double>(measured);
   survey.edge.mean = sum / (3 * triangles);
   survey.slender_share = static_cast<double>(slender) / triangles;
   return survey;
@@ -217,7 +223,7 @@ InfoReport info_of(const AnyShape& domain, const io::Triangles& surface) {
               " where separate parts of the surface touch in one point only");
   if (summary.components > 1) report.warnings.push_back(components_warning(summary.components));
   report.warn(summary.unreferenced_vertices, "unreferenced vertices",
-              " in no triangle, so they get inf");
+              " in no triangle: unreachable (inf)");
   report.warn(coincident, "vertices",
               " exactly where another one lies: if the two sides of a seam have their own "
               "vertices, the surface is cut along it and paths go round; --merge 0 joins them");

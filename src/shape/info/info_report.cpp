@@ -145,7 +145,7 @@ InfoReport info_of(const AnyShape& domain, const io::Edges& wireframe) {
 
   if (summary.components > 1) report.warnings.push_back(components_warning(summary.components));
   report.warn(summary.unreferenced_vertices, "unreferenced vertices",
-              " in no edge, so they get inf");
+              " in no edge: unreachable (inf)");
   report.warn(coincident, "vertices",
               " exactly where another one lies: edges that meet there are joined only if they name "
               "the same vertex; --merge 0 joins them");

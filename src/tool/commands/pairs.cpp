@@ -93,9 +93,13 @@ void check_names(const MatrixCommand& command) {
     throw UsageError("--bin-width goes with --histogram");
   if (command.bins == 0 || command.bins > 1'000'000)
     throw UsageError("--bins must be from 1 to 1000000");
-  for (const std::string* out : {&command.out, &command.stats, &command.histogram})
+  for (const auto& [out, option] :
+       {std::pair(&command.out, "--out"), std::pair(&command.stats, "--stats"),
+        std::pair(&command.histogram, "--histogram")})
     if (on_standard_output(*out))
-      throw UsageError(*out + ": what can be gone on with is a file, not standard output");
+      throw UsageError(std::string(option) +
+                       " -: pairs go to a file, not standard output, so that a run that was "
+                       "stopped can go on: name one, such as pairs.csv");
   check_output_name(command.out, command.input,
                     sparse                   ? io::SparseFile::extensions()
                     : command.labels.empty() ? std::span<const std::string_view>(dense_files)

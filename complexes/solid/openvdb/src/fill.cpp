@@ -14,8 +14,6 @@
 namespace plexway::openvdb {
 namespace {
 
-using Point = Lattice::Point;
-
 class Cutter {
  public:
   Cutter(const Bricks& bricks, double spacing)
@@ -55,7 +53,7 @@ class Cutter {
     const Cell c = Lattice::doubled(local);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::array<Cell, 4> at;
-      std::array<Point, 4> p;
+      std::array<Lattice::Point, 4> p;
       at[0] = at[1] = c;
       at[1][axis] += 2;
       p[0] = Lattice::at(around, c[0], c[1], c[2]);
@@ -77,7 +75,7 @@ class Cutter {
     }
   }
 
-  void cut(const std::array<Point, 4>& p, const std::array<Cell, 4>& at, bool shell) {
+  void cut(const std::array<Lattice::Point, 4>& p, const std::array<Cell, 4>& at, bool shell) {
     std::array<int, 4> side;
     for (std::size_t i = 0; i < 4; ++i) side[i] = lattice_.side(p[i]);
     if (*std::min_element(side.begin(), side.end()) >= 0) return;
@@ -97,12 +95,12 @@ class Cutter {
     return static_cast<Index>(solid.positions.size() - 1);
   }
 
-  Index corner(Point p) {
+  Index corner(Lattice::Point p) {
     if (number_[p] == Lattice::none) number_[p] = add(lattice_.place(p), lattice_.side(p) == 0);
     return number_[p];
   }
 
-  Index crossing(Point inside, const Cell& from, const Cell& to) {
+  Index crossing(Lattice::Point inside, const Cell& from, const Cell& to) {
     const Cell step = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
     const auto found = std::find(Lattice::steps.begin(), Lattice::steps.end(), step);
     const auto direction = static_cast<std::size_t>(found - Lattice::steps.begin());

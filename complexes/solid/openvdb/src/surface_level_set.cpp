@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/openvdb/surface.hpp>
@@ -15,23 +16,6 @@
 
 namespace plexway::openvdb {
 namespace {
-
-// What meshToVolume asks of a mesh.
-class Adapter {
- public:
-  Adapter(const ClosedSurface& surface, double voxel) : surface_(surface), voxel_(voxel) {}
-  [[nodiscard]] std::size_t polygonCount() const { return surface_.triangles.size(); }
-  [[nodiscard]] std::size_t pointCount() const { return surface_.positions.size(); }
-  [[nodiscard]] std::size_t vertexCount(std::size_t) const { return 3; }
-  void getIndexSpacePoint(std::size_t triangle, std::size_t corner, ::openvdb::Vec3d& at) const {
-    const Vector& p = surface_.positions[surface_.triangles[triangle][corner]];
-    at = ::openvdb::Vec3d(p[0] / voxel_, p[1] / voxel_, p[2] / voxel_);
-  }
-
- private:
-  const ClosedSurface& surface_;
-  double voxel_;
-};
 
 double distance(const Vector& a, const Vector& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
@@ -89,6 +73,43 @@ double choose_voxel(const Extent& extent, double asked) {
   return voxel;
 }
 
+// The surface in voxels, as meshToVolume takes it: floats, of the type that the library itself was
+// compiled for, around the middle, so that one far from the origin loses nothing.
+class Mesh {
+ public:
+  Mesh(const ClosedSurface& surface, double voxel) {
+    Vector low = surface.positions[surface.triangles[0][0]], high = low;
+    for (const auto& t : surface.triangles)
+      for (const Index v : t)
+        for (std::size_t k = 0; k < 3; ++k) {
+          low[k] = std::min(low[k], surface.positions[v][k]);
+          high[k] = std::max(high[k], surface.positions[v][k]);
+        }
+    for (std::size_t k = 0; k < 3; ++k)
+      middle_[k] = static_cast<std::int32_t>(std::round((low[k] + high[k]) / 2 / voxel / 8));
+    for (const Vector& p : surface.positions) {
+      ::openvdb::Vec3s at;
+      for (int k = 0; k < 3; ++k) {
+        const auto n = static_cast<std::size_t>(k);
+        at[k] = static_cast<float>(p[n] / voxel - 8.0 * middle_[n]);
+      }
+      points_.push_back(at);
+    }
+    for (const auto& t : surface.triangles) triangles_.emplace_back(t[0], t[1], t[2]);
+  }
+  using Adapter = ::openvdb::tools::QuadAndTriangleDataAdapter<::openvdb::Vec3s, ::openvdb::Vec3I>;
+  [[nodiscard]] Adapter adapter() const { return {points_, triangles_}; }
+  /// A brick around the middle, where it is.
+  [[nodiscard]] Cell placed(const Cell& c) const {
+    return {c[0] + middle_[0], c[1] + middle_[1], c[2] + middle_[2]};
+  }
+
+ private:
+  Cell middle_{};
+  std::vector<::openvdb::Vec3s> points_;
+  std::vector<::openvdb::Vec3I> triangles_;
+};
+
 }  // namespace
 
 LevelSet level_set_of(std::span<const std::array<double, 3>> positions,
@@ -105,12 +126,15 @@ LevelSet level_set_of(std::span<const std::array<double, 3>> positions,
   try {
     ::openvdb::initialize();
     const auto transform = ::openvdb::math::Transform::createLinearTransform(voxel);
+    const Mesh mesh(surface, voxel);
+    ::openvdb::util::NullInterrupter no_interrupter;
     const auto grid = ::openvdb::tools::meshToVolume<::openvdb::FloatGrid>(
-        Adapter(surface, voxel), *transform, half_width, half_width);
+        no_interrupter, mesh.adapter(), *transform, half_width, half_width, 0, nullptr);
     bricks->frame = frame_of(*transform);
     bricks->background = grid->background();
     bricks->active = grid->activeVoxelCount();
-    hand_out(grid->constTree(), [&](const Cell& corner, const float* values) {
+    hand_out(grid->constTree(), [&](const Cell& around, const float* values) {
+      const Cell corner = mesh.placed(around);
       values != nullptr ? bricks->add(corner, values) : bricks->add_inside(corner);
     });
   } catch (const ::openvdb::Exception& error) {

@@ -10,8 +10,8 @@
 
 namespace plexway::surface {
 
-/// What `mend` did.
-struct Mended {
+/// What `repair` did.
+struct Repaired {
   std::size_t raised = 0;   ///< vertices below the straight line, by more than 1e-4
   std::size_t lowered = 0;  ///< vertices that got nearer by more than 1e-4
 };
@@ -39,26 +39,26 @@ struct Reached {
 /// the edge between. Looks at what was reached alone, if that is known (else null), as all else is
 /// right.
 template <class Real, bool kLabels, class Scheduler>
-Mended mend(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
-            WorkspaceState<Real>& workspace, const Scheduler& scheduler,
-            const Reached* reached = nullptr) {
+Repaired repair(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
+                WorkspaceState<Real>& workspace, const Scheduler& scheduler,
+                const Reached* reached = nullptr) {
   const StraightLines<Real> lines(mesh, sources);
   const auto raise = [&] {
     if (reached == nullptr) return lines.template raise<kLabels>(workspace, scheduler);
     return lines.template raise<kLabels>(workspace, scheduler, reached->vertices.size(),
                                          [&](std::size_t n) { return reached->vertices[n]; });
   };
-  Mended mended;
-  mended.raised = raise();
+  Repaired repaired;
+  repaired.raised = raise();
   const Lowered lowered =
       reached == nullptr
           ? read_out_edges<Real, kLabels>(mesh, workspace, scheduler)
           : read_out_edges<Real, kLabels>(mesh, workspace, scheduler, reached->triangles.size(),
                                           [&](std::size_t n) { return reached->triangles[n]; });
-  mended.lowered = lowered.much;
+  repaired.lowered = lowered.much;
   // What sums of many edges lost by rounding.
   if (lowered.any) raise();
-  return mended;
+  return repaired;
 }
 
 }  // namespace plexway::surface

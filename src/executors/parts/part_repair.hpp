@@ -10,34 +10,35 @@
 #include "executors/parts/part_distances.hpp"
 #include "executors/parts/part_sources.hpp"
 #include "labels/alone.hpp"
-#include "labels/surface/mend_surface.hpp"
+#include "labels/surface/repair_surface.hpp"
 
 namespace plexway {
 
-/// As surface::mend, on a surface in parts: vertices are raised to straight lines where they are,
+/// As surface::repair, on a surface in parts: vertices are raised to straight lines where they are,
 /// and lowered along edges piece by piece until none hears of anything nearer. What comes out of
 /// that is the least over all ways, whoever goes first.
 template <class Real, bool kLabels>
-class PartMending {
+class PartRepair {
  public:
-  PartMending(const Team& team, const PartPieces<Real>& pieces, const PartSources& sources,
-              std::span<PartDistances<Real>> known)
+  PartRepair(const Team& team, const PartPieces<Real>& pieces, const PartSources& sources,
+             std::span<PartDistances<Real>> known)
       : team_(team), pieces_(pieces), sources_(sources), known_(known) {}
 
-  surface::Mended run(std::size_t& sent) {
-    surface::Mended mended;  // here
-    mended.raised = raise();
+  surface::Repaired run(std::size_t& sent) {
+    surface::Repaired repaired;  // here
+    repaired.raised = raise();
     std::vector<std::vector<Real>> before(known_.size());
     for (std::size_t i = 0; i < known_.size(); ++i) before[i] = known_[i].distance;
     bool any = false;
     do any |= lower();
     while (agree(team_.ranks(), pieces_, known_, sent));
     if (team_.any(any)) {
-      for (std::size_t i = 0; i < known_.size(); ++i) mended.lowered += count_lowered(i, before[i]);
+      for (std::size_t i = 0; i < known_.size(); ++i)
+        repaired.lowered += count_lowered(i, before[i]);
       raise();
       agree(team_.ranks(), pieces_, known_, sent);  // pieces see lines from where they are
     }
-    return {sum_of(team_.ranks(), mended.raised), sum_of(team_.ranks(), mended.lowered)};
+    return {sum_of(team_.ranks(), repaired.raised), sum_of(team_.ranks(), repaired.lowered)};
   }
 
  private:

@@ -14,7 +14,7 @@ namespace plexway::windows {
 /// What one piece tells another: a window that enters there, or how far a vertex is that both have,
 /// where its path comes from, and what merging may have cost.
 template <class Real>
-struct Letter {
+struct Message {
   static constexpr Index is_vertex = Index{1} << 31;
 
   Index to;  ///< the halfedge that it enters by, 4 f + i; or a vertex and `is_vertex`
@@ -22,14 +22,14 @@ struct Letter {
   Index corner;         ///< of a vertex, as Arrival has it
   Window<Real> window;  ///< of a vertex: `at_begin` the distance, beam.x and h the direction
 
-  [[nodiscard]] static Letter of_vertex(Index vertex, Real distance, const Arrival<Real>& arrival,
-                                        Index source, Real error) {
+  [[nodiscard]] static Message of_vertex(Index vertex, Real distance, const Arrival<Real>& arrival,
+                                         Index source, Real error) {
     return {vertex | is_vertex,
             source,
             arrival.corner,
             {{arrival.along, arrival.off, 0, 0}, 0, distance, 0, error}};
   }
-  [[nodiscard]] bool tells_of_vertex() const { return (to & is_vertex) != 0; }
+  [[nodiscard]] bool is_of_vertex() const { return (to & is_vertex) != 0; }
   [[nodiscard]] Index vertex() const { return to & ~is_vertex; }
   [[nodiscard]] Arrival<Real> arrival() const { return {corner, window.beam.x, window.beam.h}; }
 };
@@ -38,7 +38,7 @@ struct Letter {
 /// vertices that got nearer.
 template <class Real>
 struct Leaving {
-  std::vector<Letter<Real>> windows;
+  std::vector<Message<Real>> windows;
   std::vector<Index> vertices;
 
   void start(std::size_t shared) {
