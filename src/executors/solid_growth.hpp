@@ -48,7 +48,8 @@ class Growth<TetMesh<Real>> {
 
   /// The next source in a tetrahedron or at a vertex, sigma walked to it; no farther than radius.
   void add(Index t, const Weights& weights, Real sigma, Index /*number*/, Real radius) {
-    const strings::Source source = in(t, weights, static_cast<double>(sigma));
+    strings::Inside inside;
+    const strings::Source source = in(t, weights, static_cast<double>(sigma), inside);
     grow({&source, 1}, radius);
   }
   void add_vertex(Index vertex, Real sigma, Index /*number*/, Real radius) {
@@ -58,7 +59,9 @@ class Growth<TetMesh<Real>> {
   /// Many: `points[i]` is number i.
   void add_all(std::span<const std::pair<Index, Weights>> points, Real radius) {
     std::vector<strings::Source> sources;
-    for (const auto& [t, weights] : points) sources.push_back(in(t, weights, 0));
+    std::vector<strings::Inside> inside(points.size());
+    for (const auto& [t, weights] : points)
+      sources.push_back(in(t, weights, 0, inside[sources.size()]));
     grow(sources, radius);
   }
   void add_all_vertices(std::span<const Index> vertices) {
@@ -72,8 +75,10 @@ class Growth<TetMesh<Real>> {
   template <class Reach>
   [[nodiscard]] bool is_near_another(Index vertex, Index t, const Weights& weights, Real radius,
                                      const Reach& reach) {
-    const strings::Source source =
-        vertex != none ? source_at(space(), vertex, 0) : source_in(mesh_, space(), t, weights, 0);
+    strings::Inside inside;
+    const strings::Source source = vertex != none
+                                       ? source_at(space(), vertex, 0)
+                                       : source_in(mesh_, space(), t, weights, 0, inside);
     std::vector<Index> near;
     double farthest = 0;
     each_source_around(vertex != none ? std::span(&vertex, 1) : std::span(corners_of(t), 4),
@@ -114,7 +119,7 @@ class Growth<TetMesh<Real>> {
   [[nodiscard]] Point first_bend(Index t) {
     centre_.tet = none;
     (void)centre(t);
-    return solver_->path(attached())[1];
+    return solver_->path(attached()).points[1];
   }
   [[nodiscard]] Real vertex_distance(Index vertex) const {
     return solver_ ? static_cast<Real>(solver_->distance(vertex))
@@ -204,7 +209,7 @@ class Growth<TetMesh<Real>> {
     Real distance;
   };
 
-  const strings::SolidSpace& space() {
+  const strings::MediaSpace& space() {
     if (!space_) space_ = space_of(mesh_);
     return *space_;
   }
@@ -215,7 +220,7 @@ class Growth<TetMesh<Real>> {
     }
     return *solver_;
   }
-  [[nodiscard]] Index attached() const { return static_cast<Index>(space_->vertices()); }
+  [[nodiscard]] Index attached() const { return static_cast<Index>(space_->points()); }
 
   // A source that is added next.
   strings::Source at(Index vertex, double sigma) {
@@ -223,10 +228,10 @@ class Growth<TetMesh<Real>> {
     seeds_.push_back({source.at, vertex, none, sigma});
     return source;
   }
-  strings::Source in(Index t, const Weights& weights, double sigma) {
+  strings::Source in(Index t, const Weights& weights, double sigma, strings::Inside& inside) {
     for (std::size_t i = 0; i < 4; ++i)
       if (weights[i] == 1) return at(corners_of(t)[i], sigma);
-    strings::Source source = source_in(mesh_, space(), t, weights, sigma);
+    strings::Source source = source_in(mesh_, space(), t, weights, sigma, inside);
     in_tet_.emplace(t, static_cast<Index>(seeds_.size()));
     seeds_.push_back({source.at, none, t, sigma});
     return source;
@@ -240,9 +245,8 @@ class Growth<TetMesh<Real>> {
 
   void attach(strings::Solver& solver, Index t, const Point& at,
               std::span<const Index> sources) const {
-    std::array<Index, 4> corner;
-    std::copy_n(corners_of(t), 4, corner.begin());
-    solver.attach(at, corner, sources);
+    const strings::Inside inside = inside_of(mesh_, *space_, t, at);
+    solver.attach(at, {&inside, 1}, sources);
   }
   // Those of a vertex that may come to a point in less than that.
   void add_ends(Index vertex, const Point& point, double most) {
@@ -298,7 +302,7 @@ class Growth<TetMesh<Real>> {
   template <class Visit>
   void each_source_around(std::span<const Index> start, const Point& at, double radius,
                           const Visit& visit) {
-    seen_.resize(space().vertices(), 0);
+    seen_.resize(space().points(), 0);
     known_.resize(seeds_.size(), 0);
     ++turn_;
     around_.assign(start.begin(), start.end());
@@ -318,7 +322,7 @@ class Growth<TetMesh<Real>> {
   }
 
   const TetMesh<Real>& mesh_;
-  std::shared_ptr<const strings::SolidSpace> space_;
+  std::shared_ptr<const strings::MediaSpace> space_;
   std::optional<strings::Solver> solver_, alone_;
   std::vector<Seed> seeds_;
   std::unordered_multimap<Index, Index> in_tet_;  // sources by the tetrahedron that they are in

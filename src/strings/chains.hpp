@@ -26,14 +26,16 @@ class Chains {
   /// The chain with a place behind.
   Index with(Index parent, Index place) {
     if (2 * links_.size() > table_.size()) grow();
-    std::size_t slot = slot_of(parent, place);
-    for (; table_[slot] != none; slot = (slot + 1) & (table_.size() - 1)) {
-      const Link& link = links_[table_[slot]];
-      if (link.parent == parent && link.place == place) return table_[slot];
+    Index& found = table_[slot_of(parent, place)];
+    if (found == none) {
+      found = static_cast<Index>(links_.size());
+      links_.push_back({parent, place});
     }
-    table_[slot] = static_cast<Index>(links_.size());
-    links_.push_back({parent, place});
-    return table_[slot];
+    return found;
+  }
+  /// The same if there is one; else none.
+  [[nodiscard]] Index find(Index parent, Index place) const {
+    return table_[slot_of(parent, place)];
   }
 
   [[nodiscard]] const Link& operator[](Index chain) const { return links_[chain]; }
@@ -42,13 +44,6 @@ class Chains {
     while (!is_root(chain)) chain = links_[chain].parent;
     return links_[chain].place;
   }
-  /// The places of a chain, from the source on.
-  void places(Index chain, std::vector<Index>& places) const {
-    std::size_t count = 0;
-    for (Index c = chain; !is_root(c); c = links_[c].parent) ++count;
-    places.resize(count);
-    for (Index c = chain; !is_root(c); c = links_[c].parent) places[--count] = links_[c].place;
-  }
 
   [[nodiscard]] std::size_t size() const { return links_.size(); }
   [[nodiscard]] std::size_t bytes() const {
@@ -56,17 +51,20 @@ class Chains {
   }
 
  private:
+  // Where it is, or is to be.
   [[nodiscard]] std::size_t slot_of(Index parent, Index place) const {
     const std::uint64_t key = std::uint64_t{parent} << 32 | place;
-    return (key * 0x9E3779B97F4A7C15u >> 20) & (table_.size() - 1);
+    std::size_t slot = (key * 0x9E3779B97F4A7C15u >> 20) & (table_.size() - 1);
+    for (; table_[slot] != none; slot = (slot + 1) & (table_.size() - 1)) {
+      const Link& link = links_[table_[slot]];
+      if (link.parent == parent && link.place == place) break;
+    }
+    return slot;
   }
   void grow() {
     table_.assign(2 * table_.size(), none);
-    for (Index c = 0; c < links_.size(); ++c) {
-      std::size_t slot = slot_of(links_[c].parent, links_[c].place);
-      while (table_[slot] != none) slot = (slot + 1) & (table_.size() - 1);
-      table_[slot] = c;
-    }
+    for (Index c = 0; c < links_.size(); ++c)
+      table_[slot_of(links_[c].parent, links_[c].place)] = c;
   }
 
   std::vector<Link> links_;

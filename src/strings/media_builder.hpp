@@ -210,7 +210,7 @@ struct MediaSpace::Builder {
         inside[mesh.inside_vertex(v)] = points[used[v]];
         number[used[v]] = none;
       }
-      medium.room = std::make_unique<SolidSpace>(mesh, std::move(inside));
+      medium.room = std::make_shared<const SolidSpace>(mesh, std::move(inside));
       space.media_.push_back(std::move(medium));
     }
   }
@@ -309,7 +309,7 @@ struct MediaSpace::Builder {
     std::vector<Point> inside(corners.size());
     for (Index v = 0; v < inside.size(); ++v) inside[mesh.inside_vertex(v)] = corners[v];
     for (Index v = 0; v < count; ++v) sheet.vertex.push_back(mesh.inside_vertex(v));
-    sheet.room = std::make_unique<SolidSpace>(mesh, std::move(inside));
+    sheet.room = std::make_shared<const SolidSpace>(mesh, std::move(inside));
   }
   // Is all of it in front of each edge of its border?
   [[nodiscard]] bool is_convex(const std::vector<Index>& faces) const {

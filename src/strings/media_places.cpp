@@ -192,11 +192,6 @@ void MediaSpace::Builder::make_places() {
       space.doors_.push_back(door);
     }
   }
-  for (Index p = 0; p < points.size(); ++p) {
-    space.first_door_.push_back(static_cast<Index>(space.doors_.size()));
-    for (const Index n : space.nodes_at(p))
-      space.doors_.push_back({space.corner(p), space.medium_of_[n], 0, 0});
-  }
   space.first_door_.push_back(static_cast<Index>(space.doors_.size()));
 }
 

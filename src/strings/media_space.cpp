@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "strings/media_builder.hpp"
@@ -34,6 +35,27 @@ std::vector<Index> covered_by(const Parts& parts) {
 MediaSpace::MediaSpace(const Parts& parts) {
   Builder builder(*this, parts);
   builder.build();
+}
+
+MediaSpace::MediaSpace(std::shared_ptr<const SolidSpace> solid)
+    : aside_(solid->aside()), places_(solid->places()) {
+  const std::size_t count = solid->vertices();
+  Medium medium{1, true, std::move(solid), {}, 0, 0, {}, {}, {}};
+  points_.reserve(count);
+  for (Index v = 0; v < count; ++v) points_.push_back(medium.room->point(v));
+  nodes_.resize(count);
+  std::iota(nodes_.begin(), nodes_.end(), Index{0});
+  nodes_begin_ = nodes_;
+  nodes_begin_.push_back(static_cast<Index>(count));
+  medium.points = nodes_;
+  medium_of_.assign(count, 0);
+  media_.push_back(std::move(medium));
+  first_patch_ = first_row_ = static_cast<Index>(places_.size());
+  for (Index p = 0; p < places_.size(); ++p) {
+    first_door_.push_back(p);
+    doors_.push_back({p, 0});
+  }
+  first_door_.push_back(first_row_);
 }
 
 std::vector<Index> MediaSpace::simplices_around(Index simplex,

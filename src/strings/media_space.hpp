@@ -8,7 +8,7 @@
 
 #include "strings/solid_space.hpp"
 
-/// Several media in one space: solids of one speed each, straight wires and flat sheets.
+/// Media in one space: solids of one speed each, straight wires and flat sheets.
 namespace plexway::strings {
 
 /// What a space is made of: simplices of one numbering of points, each with the time that a unit of
@@ -36,12 +36,16 @@ struct Parts {
 class MediaSpace {
  public:
   explicit MediaSpace(const Parts& parts);
+  /// A solid as one medium, its points numbered and scaled as there.
+  explicit MediaSpace(std::shared_ptr<const SolidSpace> solid);
+  MediaSpace(const MediaSpace&) = delete;
+  MediaSpace& operator=(const MediaSpace&) = delete;
 
   struct Medium {
     double slowness;
     bool is_solid;
     /// Of a solid; of a sheet that is not convex, of the prism above it; else null.
-    std::unique_ptr<SolidSpace> room;
+    std::shared_ptr<const SolidSpace> room;
     std::vector<Index> points;  ///< of its nodes
     Index first_node, first_bend;
     std::vector<Index> begin, neighbours;  ///< of a wire or a sheet
@@ -52,6 +56,8 @@ class MediaSpace {
       return is_solid ? node - first_node : vertex[node - first_node];
     }
   };
+  /// Is it a solid alone, whose points are the nodes?
+  [[nodiscard]] bool is_plain() const { return simplices_.empty(); }
   enum class Kind { bend, patch, row, corner };
   /// A part of a plane.
   struct Patch {
@@ -132,19 +138,30 @@ class MediaSpace {
     return patches_of_[row - first_row_];
   }
   /// Patches and rows at a point.
-  [[nodiscard]] std::span<const Index> places_at(Index point) const { return at_[point]; }
+  [[nodiscard]] std::span<const Index> places_at(Index point) const {
+    return at_.empty() ? std::span<const Index>() : at_[point];
+  }
 
   /// none: that medium is not at the place.
   [[nodiscard]] Index door(Index place, Index medium) const {
-    const auto first = first_door_[place], last = first_door_[place + 1];
-    for (Index d = first; d < last; ++d)
-      if (doors_[d].medium == medium) return d;
+    for (Index d = first_door(place); d < last_door(place); ++d)
+      if (medium_behind(d) == medium) return d;
     return none;
   }
-  [[nodiscard]] Index place_of(Index door) const { return doors_[door].place; }
-  [[nodiscard]] Index medium_behind(Index door) const { return doors_[door].medium; }
-  [[nodiscard]] Index first_door(Index place) const { return first_door_[place]; }
-  [[nodiscard]] Index last_door(Index place) const { return first_door_[place + 1]; }
+  [[nodiscard]] Index place_of(Index door) const {
+    return door < doors_.size() ? doors_[door].place : corner(point_of(node_behind(door)));
+  }
+  [[nodiscard]] Index medium_behind(Index door) const {
+    return door < doors_.size() ? doors_[door].medium : medium_of(node_behind(door));
+  }
+  [[nodiscard]] Index first_door(Index place) const {
+    if (place < places_.size()) return first_door_[place];
+    return static_cast<Index>(doors_.size()) + nodes_begin_[point_of_corner(place)];
+  }
+  [[nodiscard]] Index last_door(Index place) const {
+    if (place < places_.size()) return first_door_[place + 1];
+    return static_cast<Index>(doors_.size()) + nodes_begin_[point_of_corner(place) + 1];
+  }
 
   /// Is a point of its plane in a patch, or no further off than `near`?
   [[nodiscard]] bool holds(const Patch& patch, double t, double u, double near) const;
@@ -158,7 +175,7 @@ class MediaSpace {
   /// Where a leg in a medium ends that comes from `toward` to a place: a little inside.
   [[nodiscard]] Point beside(Index place, Index medium, const Point& at, const Point& toward,
                              const Point& free) const;
-  [[nodiscard]] static constexpr double aside() { return 1e-6; }
+  [[nodiscard]] double aside() const { return aside_; }
 
  private:
   struct Door {
@@ -166,8 +183,10 @@ class MediaSpace {
     Index first_wedge = 0, last_wedge = 0;
   };
   struct Builder;
+  /// Doors of corners come last, in the order of `nodes_`.
+  [[nodiscard]] Index node_behind(Index door) const { return nodes_[door - doors_.size()]; }
 
-  double unit_ = 1;
+  double unit_ = 1, aside_ = 1e-6;
   Point middle_ = {0, 0, 0};
   std::vector<Point> points_;
   std::vector<Medium> media_;

@@ -16,9 +16,21 @@ Index corner_of(const strings::MediaSpace& media, Index simplex, const PointSour
   return none;
 }
 
-strings::MediaSource source_of(const MixedSpace& space, const PointSource& given) {
+// A point of these simplices, as one of each.
+std::vector<strings::Inside> inside_of(const strings::MediaSpace& media, const strings::Point& at,
+                                       std::span<const Index> simplices) {
+  std::vector<strings::Inside> inside;
+  for (const Index s : simplices) {
+    const auto& simplex = media.simplices()[s];
+    inside.push_back({s, simplex.medium, simplex.corner, media.beside(s, at)});
+  }
+  return inside;
+}
+
+strings::Source source_of(const MixedSpace& space, const PointSource& given,
+                          std::vector<strings::Inside>& inside) {
   const strings::MediaSpace& media = *space.media;
-  strings::MediaSource source;
+  strings::Source source;
   source.offset = given.offset / media.unit();
   if (given.vertex != none) {
     source.point = space.point[given.vertex];
@@ -26,7 +38,9 @@ strings::MediaSource source_of(const MixedSpace& space, const PointSource& given
     const Index simplex = space.simplex(given.simplex);
     source.point = corner_of(media, simplex, given);
     source.at = media.at(simplex, given.barycentric);
-    source.simplices = media.simplices_around(simplex, given.barycentric);
+    if (source.point == none)
+      source.inside = inside =
+          inside_of(media, source.at, media.simplices_around(simplex, given.barycentric));
   }
   if (source.point != none) source.at = media.point(source.point);
   return source;
@@ -40,11 +54,13 @@ void MixedStrings::solve(const MixedComplex<Real>& domain, std::shared_ptr<const
                          DistanceField<Real>& field) {
   const strings::MediaSpace& media = *space->media;
   if (!solver_ || space_ != space) {
-    solver_ = std::make_unique<strings::MediaSolver>(media);
+    solver_ = std::make_unique<strings::Solver>(media);
     space_ = std::move(space);
   }
   sources_.clear();
-  for (const PointSource& s : sources) sources_.push_back(source_of(*space_, s));
+  inside_.assign(sources.size(), {});
+  for (const PointSource& s : sources)
+    sources_.push_back(source_of(*space_, s, inside_[sources_.size()]));
   const double unit = media.unit();
   strings::Limits limits;
   limits.radius = options.radius / unit;
@@ -95,8 +111,12 @@ MixedStrings::Found MixedStrings::at(const PointSource& point) const {
     number = corner_of(media, simplex, point);
     if (number == none) {
       number = static_cast<Index>(media.points());
-      solver_->attach(media.at(simplex, point.barycentric),
-                      media.simplices_around(simplex, point.barycentric));
+      const strings::Point at = media.at(simplex, point.barycentric);
+      const auto inside = inside_of(media, at, media.simplices_around(simplex, point.barycentric));
+      std::vector<Index> own;  // sources that share one of these
+      for (Index n = 0; n < inside_.size(); ++n)
+        if (!inside_[n].empty()) own.push_back(n);
+      solver_->attach(at, inside, own);
     }
   }
   const Index source = solver_->source(number);
@@ -107,7 +127,7 @@ MixedStrings::Found MixedStrings::at(const PointSource& point) const {
 
 std::size_t MixedStrings::bytes() const {
   return sizeof(*this) + (solver_ ? solver_->bytes() : 0) +
-         sources_.capacity() * sizeof(strings::MediaSource);
+         sources_.capacity() * sizeof(strings::Source);
 }
 
 template void MixedStrings::solve(const MixedComplex<float>&, std::shared_ptr<const MixedSpace>,

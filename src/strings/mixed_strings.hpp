@@ -12,8 +12,8 @@
 #include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "strings/media_solver.hpp"
 #include "strings/mixed_space.hpp"
+#include "strings/solver.hpp"
 
 /// Mixed domains by strings: between the library's sources, options and fields, and theirs.
 namespace plexway {
@@ -44,9 +44,10 @@ class MixedStrings {
 
  private:
   std::shared_ptr<const MixedSpace> space_;
-  std::unique_ptr<strings::MediaSolver> solver_;
+  std::unique_ptr<strings::Solver> solver_;
   mutable std::mutex asked_;
-  std::vector<strings::MediaSource> sources_;
+  std::vector<strings::Source> sources_;
+  std::vector<std::vector<strings::Inside>> inside_;  // of each
 };
 
 }  // namespace plexway

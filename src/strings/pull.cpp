@@ -58,44 +58,58 @@ Block<2> inverse(const Block<2>& m) {
 
 // Each bend for itself, its neighbours fixed: unfold both sides of its place into a plane.
 void Puller::pull_each(String& string) const {
-  for (std::size_t i = string.held; i < string.bends(); ++i) {
-    const Place& place = *string.places[i];
-    const Point &from = string.corner(i), &to = string.corner(i + 2);
+  auto& knots = string.knots;
+  for (std::size_t k = 1; k + 1 < knots.size(); ++k) {
+    Knot& knot = knots[k];
+    const Place& place = *knot.place;
+    const Point &from = knots[k - 1].at, &to = knots[k + 1].at;
     const double near = norm(off_place(place, from)), far = norm(off_place(place, to));
-    const double before = string.slow(i), after = string.slow(i + 1);
+    const double before = knots[k - 1].slowness, after = knot.slowness;
     if (near + far > 0 || before != after) {
       const Point a = from - place.origin, way = to - from;
       const double along = dot(way, place.along), wide = dot(way, place.wide);
       const double x = crossing(near, far, std::sqrt(along * along + wide * wide), before, after);
-      string.at[i] = std::clamp(dot(a, place.along) + x * along, place.low, place.high);
-      if (place.is_plane) string.wide[i] = dot(a, place.wide) + x * wide;
+      knot.t = std::clamp(dot(a, place.along) + x * along, place.low, place.high);
+      if (place.is_plane) knot.u = dot(a, place.wide) + x * wide;
     }
-    string.points[i] =
-        place.is_plane ? place.at(string.at[i], string.wide[i]) : place.at(string.at[i]);
+    knot.at = place.is_plane ? place.at(knot.t, knot.u) : place.at(knot.t);
   }
 }
 
-double Puller::measure(String& string) {
+void Puller::measure(String& string) {
+  auto& knots = string.knots;
   const std::size_t n = string.bends();
   legs_.resize(n + 1);
   lengths_.resize(n + 1);
-  string.points.resize(n);
-  double sum = string.held_length;
-  Point last = string.corner(string.held);
-  for (std::size_t i = string.held; i <= n; ++i) {
+  double sum = string.before;
+  for (std::size_t i = 0; i <= n; ++i) {
+    Knot& next = knots[i + 1];
     if (i < n) {
-      const Place& place = *string.places[i];
-      string.points[i] =
-          place.is_plane ? place.at(string.at[i], string.wide[i]) : place.at(string.at[i]);
+      const Place& place = *next.place;
+      next.at = place.is_plane ? place.at(next.t, next.u) : place.at(next.t);
     }
-    const Point& next = i < n ? string.points[i] : string.to;
-    const Point leg = next - last;
+    const Point leg = next.at - knots[i].at;
     lengths_[i] = norm(leg);
     legs_[i] = lengths_[i] > 0 ? 1 / lengths_[i] * leg : Point{0, 0, 0};
-    sum += string.slow(i) * lengths_[i];
-    last = next;
+    sum += knots[i].slowness * lengths_[i];
   }
-  return sum;
+  string.length = sum;
+}
+
+void Puller::keep(const String& string) {
+  kept_.resize(2 * string.bends());
+  for (std::size_t i = 0; i < string.bends(); ++i) {
+    kept_[2 * i] = string.knots[i + 1].t;
+    kept_[2 * i + 1] = string.knots[i + 1].u;
+  }
+}
+
+void Puller::restore(String& string) {
+  for (std::size_t i = 0; i < string.bends(); ++i) {
+    string.knots[i + 1].t = kept_[2 * i];
+    string.knots[i + 1].u = kept_[2 * i + 1];
+  }
+  measure(string);
 }
 
 template <std::size_t D>
@@ -106,11 +120,11 @@ void Puller::differentiate(const String& string) {
   diagonal_.resize(D * D * n);
   beside_.resize(D * D * n);
   const auto axis = [&](std::size_t i, std::size_t a) -> const Point& {
-    return a == 0 ? string.places[i]->along : string.places[i]->wide;
+    return a == 0 ? string.knots[i + 1].place->along : string.knots[i + 1].place->wide;
   };
-  double bent = string.slow(string.held) / std::max(lengths_[string.held], least);
-  for (std::size_t i = string.held; i < n; ++i) {
-    const double before = string.slow(i), after = string.slow(i + 1);
+  double bent = string.knots[0].slowness / std::max(lengths_[0], least);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double before = string.knots[i].slowness, after = string.knots[i + 1].slowness;
     const double next = after / std::max(lengths_[i + 1], least);
     double in[D], out[D];
     for (std::size_t a = 0; a < D; ++a) {
@@ -138,18 +152,19 @@ void Puller::differentiate(const String& string) {
 // The move of each bend by Newton; returns the slope of the length along it.
 template <std::size_t D>
 double Puller::solve(const String& string) {
-  const std::size_t n = string.bends(), first = string.held;
+  const std::size_t n = string.bends();
   move_.resize(D * n);
   const auto held = [&](std::size_t i, std::size_t a) {
-    const Place& p = *string.places[i];
-    if (a == 1) return !p.is_plane || (i == first && at_start_) || (i + 1 == n && at_end_);
-    if ((i == first && at_start_) || (i + 1 == n && at_end_)) return true;
-    return p.high <= p.low || (string.at[i] <= p.low && gradient_[D * i] > 0) ||
-           (string.at[i] >= p.high && gradient_[D * i] < 0);
+    const Place& p = *string.knots[i + 1].place;
+    const double t = string.knots[i + 1].t;
+    if (a == 1) return !p.is_plane || (i == 0 && at_start_) || (i + 1 == n && at_end_);
+    if ((i == 0 && at_start_) || (i + 1 == n && at_end_)) return true;
+    return p.high <= p.low || (t <= p.low && gradient_[D * i] > 0) ||
+           (t >= p.high && gradient_[D * i] < 0);
   };
-  for (std::size_t i = first; i < n; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     double* const diagonal = &diagonal_[D * D * i];
-    double* const behind = i > first ? &beside_[D * D * (i - 1)] : nullptr;
+    double* const behind = i > 0 ? &beside_[D * D * (i - 1)] : nullptr;
     double* const ahead = &beside_[D * D * i];
     for (std::size_t a = 0; a < D; ++a) {
       if (!held(i, a)) {
@@ -166,11 +181,11 @@ double Puller::solve(const String& string) {
     }
   }
   Block<D> before{};  // the inverse of what is left of the block before
-  for (std::size_t i = first; i < n; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     Block<D> now;
     for (std::size_t a = 0; a < D * D; ++a) now[a] = diagonal_[D * D * i + a];
     for (std::size_t a = 0; a < D; ++a) move_[D * i + a] = -gradient_[D * i + a];
-    if (i > first) {
+    if (i > 0) {
       const double* const c = &beside_[D * D * (i - 1)];
       for (std::size_t a = 0; a < D; ++a)
         for (std::size_t k = 0; k < D; ++k) {
@@ -184,7 +199,7 @@ double Puller::solve(const String& string) {
     for (std::size_t a = 0; a < D * D; ++a) diagonal_[D * D * i + a] = before[a];
   }
   double slope = 0;
-  for (std::size_t i = n; i-- > first;) {
+  for (std::size_t i = n; i-- > 0;) {
     double right[D];
     for (std::size_t a = 0; a < D; ++a) {
       right[a] = move_[D * i + a];
@@ -205,91 +220,89 @@ double Puller::solve(const String& string) {
 // Along the move. False if that is no shorter, and nothing is changed.
 template <std::size_t D>
 bool Puller::step(String& string, double share, double least) {
-  kept_ = string.at;
-  if (D == 2) kept_wide_ = string.wide;
-  for (std::size_t i = string.held; i < kept_.size(); ++i) {
-    string.at[i] =
-        std::clamp(kept_[i] + share * move_[D * i], string.places[i]->low, string.places[i]->high);
-    if (D == 2) string.wide[i] += share * move_[D * i + D - 1];
+  const double before = string.length;
+  keep(string);
+  for (std::size_t i = 0; i < string.bends(); ++i) {
+    Knot& knot = string.knots[i + 1];
+    knot.t = std::clamp(knot.t + share * move_[D * i], knot.place->low, knot.place->high);
+    if (D == 2) knot.u += share * move_[D * i + D - 1];
   }
-  const double length = measure(string);
-  if (length <= string.length - least) {
-    string.length = length;
-    return true;
-  }
-  string.at = kept_;
-  if (D == 2) string.wide = kept_wide_;
   measure(string);
+  if (string.length <= before - least) return true;
+  restore(string);
   return false;
 }
 
 void Puller::pull(String& string) {
+  auto& knots = string.knots;
   const std::size_t n = string.bends();
-  for (std::size_t i = string.held; i < n; ++i)
-    string.at[i] = std::clamp(string.at[i], string.places[i]->low, string.places[i]->high);
-  string.length = measure(string);
-  if (n == string.held) return;
-  if (n == string.held + 1) {
-    pull_each(string);
-    string.length = measure(string);
-    return;
-  }
   weighted_ = false;
-  for (std::size_t i = string.held; i < n; ++i) {
-    if (string.places[i]->is_plane) weighted_ = true;
-    if (string.slow(i) != string.slow(i + 1)) weighted_ = true;
+  bool has_planes = false;
+  for (std::size_t k = 1; k <= n; ++k) {
+    Knot& knot = knots[k];
+    knot.t = std::clamp(knot.t, knot.place->low, knot.place->high);
+    has_planes = has_planes || knot.place->is_plane;
+    weighted_ = weighted_ || knot.slowness != knots[k - 1].slowness;
   }
-  for (std::size_t i = string.held; i < n; ++i)
-    if (string.places[i]->is_plane) return pull_by<2>(string);
-  pull_by<1>(string);
+  weighted_ = weighted_ || has_planes;
+  if (n == 1) pull_each(string);
+  measure(string);
+  if (n < 2) return;
+  if (has_planes)
+    pull_by<2>(string);
+  else
+    pull_by<1>(string);
 }
 
 // Rows that meet in a vertex, their neighbours fixed: unfolded about them, straight across, or
 // where that turns pi or more all bends to the vertex. None of them gets there by itself.
 void Puller::pull_fans(String& string) {
   constexpr double straight = std::numbers::pi - 1e-6;
+  auto& knots = string.knots;
+  const std::size_t last = knots.size() - 1;
   const auto angle = [](const Point& p, const Point& q) {
     return std::atan2(norm(cross(p, q)), dot(p, q));
   };
-  const auto has = [&](std::size_t i, Index v) {
-    const Place& p = *string.places[i];
+  const auto has = [&](std::size_t k, Index v) {
+    const Place& p = *knots[k].place;
     return p.end[0] == v || p.end[1] == v;
   };
-  for (std::size_t i = string.held, end; i + 1 < string.bends(); i = end - 1) {
-    end = i + 2;
-    const Place& first = *string.places[i];
-    const bool low = has(i + 1, first.end[0]);
+  for (std::size_t k = 1, end; k + 1 < last; k = end - 1) {
+    end = k + 2;
+    const Place& first = *knots[k].place;
+    const bool low = has(k + 1, first.end[0]);
     const Index v = first.end[low ? 0 : 1];
-    if (v == none || string.places[i + 1] == &first || (!low && !has(i + 1, v))) continue;
-    while (end < string.bends() && has(end, v)) ++end;
+    if (v == none || knots[k + 1].place == &first || (!low && !has(k + 1, v))) continue;
+    while (end < last && has(end, v)) ++end;
     const Point at = first.at(low ? first.low : first.high);
     const auto along = [&](std::size_t n) {
-      const Place& p = *string.places[n];
+      const Place& p = *knots[n].place;
       return p.end[0] == v ? p.along : -1. * p.along;
     };
-    const Point in = string.corner(i) - at, out = string.corner(end + 1) - at;
-    double turned = angle(in, along(i));
-    move_[i] = turned;
-    for (std::size_t n = i + 1; n < end; ++n) move_[n] = turned += angle(along(n - 1), along(n));
+    const Point in = knots[k - 1].at - at, out = knots[end].at - at;
+    double turned = angle(in, along(k));
+    move_[k - 1] = turned;
+    for (std::size_t n = k + 1; n < end; ++n)
+      move_[n - 1] = turned += angle(along(n - 1), along(n));
     turned += angle(along(end - 1), out);
     const double before = norm(in), behind = norm(out);
-    for (std::size_t n = i; n < end; ++n) {
-      const Place& p = *string.places[n];
-      const double reach =
-          turned < straight
-              ? before * behind * std::sin(turned) /
-                    (before * std::sin(move_[n]) + behind * std::sin(turned - move_[n]))
-              : 0;
-      string.at[n] =
+    for (std::size_t n = k; n < end; ++n) {
+      const Place& p = *knots[n].place;
+      const double up = move_[n - 1];
+      const double reach = turned < straight
+                               ? before * behind * std::sin(turned) /
+                                     (before * std::sin(up) + behind * std::sin(turned - up))
+                               : 0;
+      knots[n].t =
           p.end[0] == v ? std::min(p.low + reach, p.high) : std::max(p.high - reach, p.low);
-      string.points[n] = p.at(string.at[n]);
+      knots[n].at = p.at(knots[n].t);
     }
   }
 }
 
 // Are bends so near to each other that Newton's method does not see what is beyond?
 bool Puller::is_kinked(const String& string) const {
-  for (std::size_t i = string.held + 1; i < string.bends(); ++i)
+  for (std::size_t i = 1; i < string.bends(); ++i)
     if (lengths_[i] < 1e-5) return true;
   return false;
 }
@@ -298,26 +311,26 @@ bool Puller::is_kinked(const String& string) const {
 // held there, and would it rather leave?
 bool Puller::is_at_kink(const String& string, bool start, bool& leaves) const {
   constexpr double none = 1e-11;
-  const std::size_t n = string.bends(), leg = start ? string.held : n,
-                    next = start ? leg + 1 : n - 1;
+  const std::size_t n = string.bends(), leg = start ? 0 : n, next = start ? 1 : n - 1;
   if (lengths_[leg] > none) return false;
-  const Place& place = *string.places[start ? leg : n - 1];
-  const double pulls =
-      string.slow(next) * std::hypot(dot(legs_[next], place.along), dot(legs_[next], place.wide));
-  if (pulls <= string.slow(leg)) return true;
+  const Place& place = *string.knots[start ? 1 : n].place;
+  const double pulls = string.knots[next].slowness *
+                       std::hypot(dot(legs_[next], place.along), dot(legs_[next], place.wide));
+  if (pulls <= string.knots[leg].slowness) return true;
   leaves = true;
   return false;
 }
 
 // The share of a move at which a leg to the free end of which is in its place passes its kink.
 double Puller::before_kink(const String& string, bool start) const {
-  const std::size_t n = string.bends(), i = start ? string.held : n - 1, d = move_.size() / n;
-  const Place& place = *string.places[i];
+  const std::size_t n = string.bends(), i = start ? 0 : n - 1, d = move_.size() / n;
+  const Place& place = *string.knots[i + 1].place;
   const Point move = move_[d * i] * place.along + (d > 1 ? move_[d * i + 1] : 0) * place.wide;
-  const Point leg = start ? string.points[i] - string.corner(i) : string.points[i] - string.to;
+  const Point& end = string.at(start ? 0 : n + 1);
+  const Point leg = string.at(i + 1) - end;
   const double toward = -dot(leg, move), square = dot(move, move);
   constexpr double flat = 1e-12;
-  if (toward <= 0 || norm(off_place(place, start ? string.corner(i) : string.to)) > flat) return 1;
+  if (toward <= 0 || norm(off_place(place, end)) > flat) return 1;
   return std::min(1., toward / square);
 }
 
@@ -339,7 +352,7 @@ void Puller::pull_by(String& string) {
       at_end_ = is_at_kink(string, false, leaves);
       if (leaves) {
         pull_each(string);
-        string.length = measure(string);
+        measure(string);
       }
     }
     differentiate<D>(string);
@@ -349,7 +362,7 @@ void Puller::pull_by(String& string) {
     const bool kinked = share < 1;
     const double least = shortest * share;
     bool shorter = false;
-    for (; !shorter && share >= least; share /= 3) {
+    for (; !shorter && share > 0 && share >= least; share /= 3) {
       shorter = step<D>(string, share, ends ? -rounding * string.length : -1e-4 * share * slope);
       if (ends) break;
     }
@@ -360,19 +373,18 @@ void Puller::pull_by(String& string) {
     // Too far, or over a corner where rows of edges meet.
     const double before = string.length;
     if (!weighted_) {
-      kept_ = string.at;
+      keep(string);
       pull_fans(string);
-      string.length = measure(string);
-      if (string.length < before * (1 - 10 * rounding)) continue;
-      string.at = kept_;
       measure(string);
+      if (string.length < before * (1 - 10 * rounding)) continue;
+      restore(string);
     }
     pull_each(string);
-    string.length = measure(string);
+    measure(string);
     // Two bends that meet are for who made the string to part or to join.
     if (weighted_) {
       constexpr double together = 1e-6;
-      for (std::size_t i = string.held + 1; i < string.bends(); ++i)
+      for (std::size_t i = 1; i < string.bends(); ++i)
         if (lengths_[i] < together) return;
     }
     if (shorter && weighted_) continue;
@@ -383,16 +395,39 @@ void Puller::pull_by(String& string) {
   }
 }
 
-bool is_held(const String& string, std::size_t n) {
-  const Place& p = *string.places[n];
+bool is_held(const String& string, std::size_t knot) {
+  const Knot& k = string.knots[knot];
+  const Place& p = *k.place;
   if (p.is_plane) return false;
   if (p.high <= p.low) return true;
-  const bool low = string.at[n] <= p.low, high = string.at[n] >= p.high;
+  const bool low = k.t <= p.low, high = k.t >= p.high;
   if (!low && !high) return false;
-  const double slope =
-      string.slow(n) * dot(p.along, unit(string.corner(n + 1) - string.corner(n))) -
-      string.slow(n + 1) * dot(p.along, unit(string.corner(n + 2) - string.corner(n + 1)));
+  const double slope = string.knots[knot - 1].slowness * dot(p.along, string.direction(knot - 1)) -
+                       k.slowness * dot(p.along, string.direction(knot));
   return low ? slope > outward : slope < -outward;
+}
+
+double slack(const String& string, const Point& in, double slowness) {
+  const Knot& first = string.knots[0];
+  const Place& p = *first.place;
+  const Point pull = slowness * in - first.slowness * string.direction(0);
+  double slope = dot(pull, p.along);
+  if ((first.t <= p.low && slope > 0) || (first.t >= p.high && slope < 0)) slope = 0;
+  if (p.is_plane) slope = std::hypot(slope, dot(pull, p.wide));
+  if (slope == 0) return 0;
+  // The legs behind it give way one after the other, as springs do.
+  double give = 0;
+  for (std::size_t leg = 0; leg + 1 < string.knots.size(); ++leg) {
+    const Point way = string.at(leg + 1) - string.at(leg);
+    const double length = norm(way), along = dot(way, p.along), wide = dot(way, p.wide);
+    const double across = length * length - along * along - wide * wide;
+    give += length * length * length /
+            (string.knots[leg].slowness * std::max(across, 1e-12 * length * length));
+    // It ends at a point that cannot move.
+    if (const Place* next = string.knots[leg + 1].place; next == nullptr || next->high <= next->low)
+      break;
+  }
+  return slope * slope * give;
 }
 
 }  // namespace plexway::strings

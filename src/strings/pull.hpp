@@ -9,43 +9,48 @@
 /// Pulling strings taut.
 namespace plexway::strings {
 
+/// A leg of a string on its way to a new end, from where it was free.
+struct Leg {
+  Point from, to;      ///< a little inside the solid
+  bool known = false;  ///< it was seen to be free there
+};
+
+/// Where a string bends, or ends.
+struct Knot {
+  Point at;
+  const Place* place = nullptr;  ///< null at the ends
+  double t = 0, u = 0;           ///< how far along the place: where a pull starts, what it finds
+  double slowness = 1;           ///< of the leg behind it
+  // Of who pulls it, not of the puller:
+  Index door = none, medium = 0;  ///< its place, and the medium of the leg behind it
+  Index chain = none;             ///< up to there
+  double before = 0;              ///< the length up to there
+  Leg leg = {};                   ///< behind it
+};
+
 /// A string from one point to another along places.
 struct String {
-  Point from, to;
-  std::vector<const Place*> places;
-  std::vector<double> at;    ///< how far along each place: where a pull starts, and what it finds
-  std::vector<double> wide;  ///< the same across planes; empty: there are none
-  std::vector<double> slowness;  ///< of legs; empty: all have 1
-  std::vector<Point> points;     ///< there
-  double length = 0;             ///< each leg times its slowness
-  std::size_t held = 0;  ///< so many places that a pull leaves alone: their `at` is as it should be
-  double held_length = 0;
+  std::vector<Knot> knots;  ///< both ends included
+  double before = 0;        ///< how long it is up to the first of them
+  double length = 0;        ///< each leg times its slowness
 
-  [[nodiscard]] std::size_t bends() const { return places.size(); }
-  /// The n-th corner, ends included.
-  [[nodiscard]] const Point& corner(std::size_t n) const {
-    return n == 0 ? from : n > bends() ? to : points[n - 1];
-  }
-  [[nodiscard]] double slow(std::size_t leg) const { return slowness.empty() ? 1 : slowness[leg]; }
+  /// The knots from 1 to this are bends.
+  [[nodiscard]] std::size_t bends() const { return knots.size() - 2; }
+  [[nodiscard]] const Point& at(std::size_t knot) const { return knots[knot].at; }
+  /// Of the leg behind a knot, unit.
+  [[nodiscard]] Point direction(std::size_t leg) const { return unit(at(leg + 1) - at(leg)); }
   /// Where rows meet in a vertex and the string bends there at both, the leg from one to the other
   /// has no length: it leads along the other row. Null for any other leg.
-  [[nodiscard]] std::optional<Point> row_from(std::size_t corner, std::size_t other) const {
-    if (other == 0 || other > bends()) return {};
+  [[nodiscard]] std::optional<Point> row_from(std::size_t knot, std::size_t other) const {
+    if (knots[other].place == nullptr) return {};
     constexpr double still = 1e-9;
-    const Place& row = *places[other - 1];
-    const Point leg = this->corner(other) - this->corner(corner);
-    const double t = at[other - 1];
+    const Place& row = *knots[other].place;
+    const Point leg = at(other) - at(knot);
     if (!(row.low < row.high && dot(leg, leg) < still * still)) return {};
+    const double t = knots[other].t;
     if (t < row.low + still) return row.along;
     if (t > row.high - still) return -1. * row.along;
     return {};
-  }
-  /// Of a string that was pulled, the first places shall stay as they are.
-  void hold(std::size_t count) {
-    held = count;
-    held_length = 0;
-    for (std::size_t n = 0; n < count; ++n)
-      held_length += slow(n) * norm(corner(n + 1) - corner(n));
   }
 };
 
@@ -61,7 +66,9 @@ class Puller {
   void pull_each(String& string) const;
   void pull_fans(String& string);
   [[nodiscard]] bool is_kinked(const String& string) const;
-  double measure(String& string);  // points, legs, length
+  void measure(String& string);  // points, legs, length
+  void keep(const String& string);
+  void restore(String& string);
   bool is_at_kink(const String& string, bool start, bool& leaves) const;
   double before_kink(const String& string, bool start) const;
   template <std::size_t D>
@@ -77,10 +84,15 @@ class Puller {
   bool at_start_ = false, at_end_ = false;  // the first, the last of the places is at an end
   std::vector<Point> legs_;                 // unit vectors
   std::vector<double> lengths_;             // of legs
-  std::vector<double> gradient_, diagonal_, beside_, move_, kept_, kept_wide_;
+  std::vector<double> gradient_, diagonal_, beside_, move_, kept_;  // of bends, from 0 on
 };
 
 /// Is a bend of a taut string held at the end of its place, and would go on past it?
-[[nodiscard]] bool is_held(const String& string, std::size_t n);
+[[nodiscard]] bool is_held(const String& string, std::size_t knot);
+
+/// Of a string that is pulled on from a bend which stays where it was: how much shorter it may be,
+/// to second order, if that were pulled as well. `in` is the direction of the leg that comes there,
+/// `slowness` that leg's.
+[[nodiscard]] double slack(const String& string, const Point& in, double slowness);
 
 }  // namespace plexway::strings

@@ -11,49 +11,62 @@ namespace plexway {
 
 using strings::Point;
 
-strings::Source source_at(const strings::SolidSpace& space, Index vertex, double offset) {
+strings::Source source_at(const strings::MediaSpace& space, Index vertex, double offset) {
   strings::Source source;
-  source.vertex = vertex;
-  source.at = source.beside = space.point(vertex);
+  source.point = vertex;
+  source.at = space.point(vertex);
   source.offset = offset;
   return source;
+}
+
+template <class Real>
+strings::Inside inside_of(const TetMesh<Real>& mesh, const strings::MediaSpace& space, Index tet,
+                          const Point& at) {
+  strings::Inside inside{tet, 0, {}, {}};
+  Point middle = {0, 0, 0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    inside.corner[i] = mesh.tets()[tet].corner[i];
+    middle = middle + .25 * space.point(inside.corner[i]);
+  }
+  inside.beside = at + space.aside() * strings::unit(middle - at);
+  return inside;
 }
 
 namespace {
 
 template <class Real>
-strings::Source source_of(const TetMesh<Real>& mesh, const strings::SolidSpace& space,
-                          const PointSource& given) {
+strings::Source source_of(const TetMesh<Real>& mesh, const strings::MediaSpace& space,
+                          const PointSource& given, strings::Inside& inside) {
   const double offset = given.offset / mesh.unit();
   if (given.vertex != none) return source_at(space, mesh.inside_vertex(given.vertex), offset);
   const auto [tet, turned] = mesh.inside_tet(given.simplex);
   std::array<double, 4> b = given.barycentric;
   if (turned) std::swap(b[2], b[3]);
-  return source_in(mesh, space, tet, b, offset);
+  return source_in(mesh, space, tet, b, offset, inside);
 }
 
 }  // namespace
 
 template <class Real>
-strings::Source source_in(const TetMesh<Real>& mesh, const strings::SolidSpace& space, Index tet,
-                          const std::array<double, 4>& weight, double offset) {
+strings::Source source_in(const TetMesh<Real>& mesh, const strings::MediaSpace& space, Index tet,
+                          const std::array<double, 4>& weight, double offset,
+                          strings::Inside& inside) {
   strings::Source source;
   source.offset = offset;
   source.at = {0, 0, 0};
-  Point middle = {0, 0, 0};
-  for (std::size_t i = 0; i < 4; ++i) {
-    source.corners[i] = mesh.tets()[tet].corner[i];
-    source.at = source.at + weight[i] * space.point(source.corners[i]);
-    middle = middle + .25 * space.point(source.corners[i]);
-  }
-  source.beside = source.at + space.aside() * strings::unit(middle - source.at);
+  for (std::size_t i = 0; i < 4; ++i)
+    source.at = source.at + weight[i] * space.point(mesh.tets()[tet].corner[i]);
+  inside = inside_of(mesh, space, tet, source.at);
+  source.inside = {&inside, 1};
   return source;
 }
 
 template <class Real>
-std::shared_ptr<const strings::SolidSpace> space_of(const TetMesh<Real>& mesh) {
-  return mesh.space().template get<strings::SolidSpace>(
-      [&] { return std::make_shared<const strings::SolidSpace>(mesh); });
+std::shared_ptr<const strings::MediaSpace> space_of(const TetMesh<Real>& mesh) {
+  return mesh.space().template get<strings::MediaSpace>([&] {
+    return std::make_shared<const strings::MediaSpace>(
+        std::make_shared<const strings::SolidSpace>(mesh));
+  });
 }
 
 template <class Real>
@@ -69,10 +82,11 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
   sources_.clear();
   inside_.clear();
   inside_.reserve(sources.size());
-  for (const PointSource& s : sources) {
-    if (s.vertex == none)
-      inside_.emplace_back(mesh.inside_tet(s.simplex).first, static_cast<Index>(sources_.size()));
-    sources_.push_back(source_of(mesh, *space_, s));
+  tets_.resize(sources.size());
+  for (Index n = 0; n < sources.size(); ++n) {
+    const PointSource& s = sources[n];
+    if (s.vertex == none) inside_.emplace_back(mesh.inside_tet(s.simplex).first, n);
+    sources_.push_back(source_of(mesh, *space_, s, tets_[n]));
   }
   std::sort(inside_.begin(), inside_.end());
   const std::size_t vertices = mesh.vertex_count();
@@ -110,7 +124,7 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
 SolidStrings::Found SolidStrings::found(Index vertex) const {
   const Index source = solver_->source(vertex);
   if (source == none) return {std::numeric_limits<double>::infinity(), none, {}};
-  return {solver_->distance(vertex) * unit_, source, solver_->path(vertex)};
+  return {solver_->distance(vertex) * unit_, source, solver_->path(vertex).points};
 }
 
 SolidStrings::Found SolidStrings::at(Index vertex) const {
@@ -122,32 +136,36 @@ template <class Real>
 SolidStrings::Found SolidStrings::at(const TetMesh<Real>& mesh, Index tet,
                                      const std::array<double, 4>& weight) const {
   const std::lock_guard lock(asked_);
-  std::array<Index, 4> corners;
   Point at = {0, 0, 0};
   for (std::size_t i = 0; i < 4; ++i) {
-    corners[i] = mesh.tets()[tet].corner[i];
-    if (weight[i] == 1) return found(corners[i]);
-    at = at + weight[i] * space_->point(corners[i]);
+    const Index corner = mesh.tets()[tet].corner[i];
+    if (weight[i] == 1) return found(corner);
+    at = at + weight[i] * space_->point(corner);
   }
   std::vector<Index> own;
   for (auto in = std::lower_bound(inside_.begin(), inside_.end(), std::pair{tet, Index{0}});
        in != inside_.end() && in->first == tet; ++in)
     own.push_back(in->second);
-  solver_->attach(at, corners, own);
-  return found(static_cast<Index>(space_->vertices()));
+  const strings::Inside inside = inside_of(mesh, *space_, tet, at);
+  solver_->attach(at, {&inside, 1}, own);
+  return found(static_cast<Index>(space_->points()));
 }
 
 std::size_t SolidStrings::bytes() const {
   return sizeof(*this) + (solver_ ? solver_->bytes() : 0) +
-         sources_.capacity() * sizeof(strings::Source);
+         sources_.capacity() * sizeof(strings::Source) + tets_.capacity() * sizeof(strings::Inside);
 }
 
-template std::shared_ptr<const strings::SolidSpace> space_of(const TetMesh<float>&);
-template std::shared_ptr<const strings::SolidSpace> space_of(const TetMesh<double>&);
-template strings::Source source_in(const TetMesh<float>&, const strings::SolidSpace&, Index,
-                                   const std::array<double, 4>&, double);
-template strings::Source source_in(const TetMesh<double>&, const strings::SolidSpace&, Index,
-                                   const std::array<double, 4>&, double);
+template std::shared_ptr<const strings::MediaSpace> space_of(const TetMesh<float>&);
+template std::shared_ptr<const strings::MediaSpace> space_of(const TetMesh<double>&);
+template strings::Inside inside_of(const TetMesh<float>&, const strings::MediaSpace&, Index,
+                                   const Point&);
+template strings::Inside inside_of(const TetMesh<double>&, const strings::MediaSpace&, Index,
+                                   const Point&);
+template strings::Source source_in(const TetMesh<float>&, const strings::MediaSpace&, Index,
+                                   const std::array<double, 4>&, double, strings::Inside&);
+template strings::Source source_in(const TetMesh<double>&, const strings::MediaSpace&, Index,
+                                   const std::array<double, 4>&, double, strings::Inside&);
 
 template void SolidStrings::solve(const TetMesh<float>&, std::span<const PointSource>,
                                   const PropagateOptions&, DistanceField<float>&);

@@ -14,19 +14,25 @@
 #include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "strings/solve.hpp"
+#include "strings/solver.hpp"
 
 /// Solids by strings (src/strings): between the library's sources, options and fields, and theirs.
 namespace plexway {
 
-/// A vertex, or a point of a tetrahedron by one coordinate a corner, as a source; inside.
-strings::Source source_at(const strings::SolidSpace& space, Index vertex, double offset);
+/// A point of a tetrahedron; inside.
 template <class Real>
-strings::Source source_in(const TetMesh<Real>& mesh, const strings::SolidSpace& space, Index tet,
-                          const std::array<double, 4>& weight, double offset);
-/// A solid's space, which it keeps.
+strings::Inside inside_of(const TetMesh<Real>& mesh, const strings::MediaSpace& space, Index tet,
+                          const strings::Point& at);
+/// A vertex as a source; inside.
+strings::Source source_at(const strings::MediaSpace& space, Index vertex, double offset);
+/// A point of a tetrahedron by one coordinate a corner; `inside` is what it keeps of that.
 template <class Real>
-std::shared_ptr<const strings::SolidSpace> space_of(const TetMesh<Real>& mesh);
+strings::Source source_in(const TetMesh<Real>& mesh, const strings::MediaSpace& space, Index tet,
+                          const std::array<double, 4>& weight, double offset,
+                          strings::Inside& inside);
+/// A solid as one medium, which it keeps.
+template <class Real>
+std::shared_ptr<const strings::MediaSpace> space_of(const TetMesh<Real>& mesh);
 
 /// What a solve by strings leaves; its memory is used again by the next one.
 class SolidStrings {
@@ -58,10 +64,11 @@ class SolidStrings {
 
   std::uint64_t identity_ = 0;  // of the solid below
   double unit_ = 1;
-  std::shared_ptr<const strings::SolidSpace> space_;  // the solid's
+  std::shared_ptr<const strings::MediaSpace> space_;  // the solid's
   std::unique_ptr<strings::Solver> solver_;
   mutable std::mutex asked_;
   std::vector<strings::Source> sources_;         // of a solve; kept for its memory
+  std::vector<strings::Inside> tets_;            // likewise, of sources inside
   std::vector<std::pair<Index, Index>> inside_;  // tetrahedra with sources inside, and these
 };
 

@@ -3,13 +3,14 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <random>
 #include <vector>
 
 #include <plexway/solid/tet_mesh.hpp>
 
 #include "data/cell_lattice.hpp"
-#include "strings/solve.hpp"
+#include "strings/solver.hpp"
 
 // Strings in lattices of cubes, some left out at random, against the same ones with each cube cut
 // in eight: corners where rows of edges meet, and edges and vertices where cubes only touch.
@@ -18,11 +19,11 @@ namespace plexway::testing::strings_lattices_test {
 namespace {
 
 std::vector<double> distances(const TetMesh<double>& mesh, Index from) {
-  const strings::SolidSpace space(mesh);
+  const strings::MediaSpace space(std::make_shared<const strings::SolidSpace>(mesh));
   strings::Solver solver(space);
   strings::Source source;
-  source.vertex = mesh.inside_vertex(from);
-  source.at = source.beside = space.point(source.vertex);
+  source.point = mesh.inside_vertex(from);
+  source.at = space.point(source.point);
   const std::array sources = {source};
   REQUIRE(solver.solve(sources, {}));
   std::vector<double> found;

@@ -10,7 +10,7 @@
 
 #include "data/mixed_pieces.hpp"
 #include "data/random_stacks.hpp"
-#include "strings/media_solver.hpp"
+#include "strings/solver.hpp"
 
 // Strings through several media, against Snell's law and head waves: exact to rounding.
 
@@ -55,12 +55,12 @@ using Exact = std::function<double(const Position&, const Position&)>;
 /// From a few points at random: the greatest share by which a distance is off, on either side.
 double worst(const Domain& domain, std::mt19937& random, int sources, const Exact& exact) {
   const strings::MediaSpace space(domain.parts);
-  strings::MediaSolver solver(space);
+  strings::Solver solver(space);
   const auto& points = domain.parts.points;
   const auto at = [&](Index p) { return Position{points[p].x, points[p].y, points[p].z}; };
   double worst = 0;
   for (int n = 0; n < sources; ++n) {
-    strings::MediaSource source;
+    strings::Source source;
     source.point = static_cast<Index>(random() % points.size());
     source.at = space.point(source.point);
     solver.solve(std::span(&source, 1));
@@ -174,20 +174,20 @@ TEST_CASE("strings over many planes are pulled to where Snell's law has them") {
     }
     strings::String string;
     const bool from_plane = random() % 2 == 0, to_plane = random() % 2 == 0;
-    string.from = {0, 0, from_plane ? layers.z[0] : layers.z[0] - share(0, 1)};
-    string.to = {share(0, 10), share(0, 3), to_plane ? z : z + share(0, 1)};
+    const Point from = {0, 0, from_plane ? layers.z[0] : layers.z[0] - share(0, 1)},
+                to = {share(0, 10), share(0, 3), to_plane ? z : z + share(0, 1)};
+    string.knots.push_back({from});
     for (const auto& p : places) {
       const double t = share(0, 1);
-      string.places.push_back(&p);
-      string.at.push_back(t * string.to.x - p.origin.x);
-      string.wide.push_back(t * string.to.y);
+      string.knots.push_back({{}, &p, t * to.x - p.origin.x, t * to.y});
     }
-    for (const double v : layers.v) string.slowness.push_back(1 / v);
+    string.knots.push_back({to});
+    for (std::size_t i = 0; i <= n; ++i) string.knots[i].slowness = 1 / layers.v[i];
     puller.pull(string);
-    const double x = std::hypot(string.to.x, string.to.y);
-    double truth = layers.through(x, string.from.z, string.to.z);
-    if (from_plane) truth = std::min(truth, layers.along(0, 0, x, string.from.z, string.to.z));
-    if (to_plane) truth = std::min(truth, layers.along(n - 1, n, x, string.from.z, string.to.z));
+    const double x = std::hypot(to.x, to.y);
+    double truth = layers.through(x, from.z, to.z);
+    if (from_plane) truth = std::min(truth, layers.along(0, 0, x, from.z, to.z));
+    if (to_plane) truth = std::min(truth, layers.along(n - 1, n, x, from.z, to.z));
     CAPTURE(k, n, from_plane, to_plane);
     CHECK(string.length == Approx(truth).epsilon(1e-10));
   }

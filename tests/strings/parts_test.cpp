@@ -34,9 +34,8 @@ TEST_CASE("equal chains are one number") {
   CHECK(chains.with(a, 9) == b);
   CHECK(chains.with(second, 7) != a);
   CHECK(chains.source(b) == 0);
-  std::vector<Index> places;
-  chains.places(b, places);
-  CHECK(places == std::vector<Index>{7, 9});
+  CHECK(chains[b].place == 9);
+  CHECK(chains[b].parent == a);
 }
 
 TEST_CASE("a taut string unfolds to a straight line") {
@@ -46,12 +45,10 @@ TEST_CASE("a taut string unfolds to a straight line") {
   Puller puller;
   for (std::size_t count = 1; count <= walls.size(); ++count) {
     String string;
-    string.from = {-1, -2, 0};
-    string.to = {double(count) + 2, -1, 3};
-    for (std::size_t n = 0; n < count; ++n) {
-      string.places.push_back(&walls[n]);
-      string.at.push_back(n % 2 == 0 ? -5 : 8);
-    }
+    string.knots.push_back({{-1, -2, 0}});
+    for (std::size_t n = 0; n < count; ++n)
+      string.knots.push_back({{}, &walls[n], n % 2 == 0 ? -5. : 8.});
+    string.knots.push_back({{double(count) + 2, -1, 3}});
     puller.pull(string);
     const double flat = std::hypot(1, 2) + double(count - 1) + std::hypot(3, 1);
     CHECK(string.length == Approx(std::hypot(flat, 3)).epsilon(1e-14));
@@ -61,13 +58,10 @@ TEST_CASE("a taut string unfolds to a straight line") {
 TEST_CASE("bends stay at the end of a place while the string presses them outward") {
   const Place first = wall(0, 1, 2), second = wall(1, -1, 0);
   String string;
-  string.from = {-1, -1, 0};
-  string.to = {2, -1, 0};
-  string.places = {&first, &second};
-  string.at = {2, -1};
+  string.knots = {{{-1, -1, 0}}, {{}, &first, 2}, {{}, &second, -1}, {{2, -1, 0}}};
   Puller().pull(string);
-  CHECK(string.at[0] == 1);
-  CHECK(string.at[1] == Approx(0).margin(1e-12));
+  CHECK(string.knots[1].t == 1);
+  CHECK(string.knots[2].t == Approx(0).margin(1e-12));
 }
 
 TEST_CASE("a string presses against a crack from one side to the other") {

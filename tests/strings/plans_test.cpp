@@ -4,14 +4,14 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <random>
 #include <vector>
 
 #include <plexway/solid/tet_mesh.hpp>
 
 #include "data/crack_plans.hpp"
-#include "strings/media_solver.hpp"
-#include "strings/solve.hpp"
+#include "strings/solver.hpp"
 
 // Strings in prisms over random plans, against visibility graphs: exact to rounding.
 
@@ -25,13 +25,13 @@ double share(Random& random) { return static_cast<double>(random()) / 4294967296
 
 std::vector<double> distances(const TetMesh<double>& mesh, const std::vector<Index>& sources,
                               const std::vector<double>& offsets = {}) {
-  const strings::SolidSpace space(mesh);
+  const strings::MediaSpace space(std::make_shared<const strings::SolidSpace>(mesh));
   strings::Solver solver(space);
   std::vector<strings::Source> from;
   for (std::size_t n = 0; n < sources.size(); ++n) {
     strings::Source source;
-    source.vertex = mesh.inside_vertex(sources[n]);
-    source.at = source.beside = space.point(source.vertex);
+    source.point = mesh.inside_vertex(sources[n]);
+    source.at = space.point(source.point);
     source.offset = n < offsets.size() ? offsets[n] / mesh.unit() : 0;
     from.push_back(source);
   }
@@ -144,8 +144,8 @@ std::vector<double> through_media(const CellPlan& plan, Index source) {
   parts.tets = plan.tets;
   parts.slow_tets.assign(plan.tets.size(), 1);
   const strings::MediaSpace space(parts);
-  strings::MediaSolver solver(space);
-  strings::MediaSource from;
+  strings::Solver solver(space);
+  strings::Source from;
   from.point = source;
   from.at = space.point(source);
   REQUIRE(solver.solve({&from, 1}));

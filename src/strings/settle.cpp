@@ -1,0 +1,204 @@
+#include "strings/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plexway::strings {
+
+Point Solver::end_of_leg(const Attempt& a, std::size_t k, std::size_t other, Index to) const {
+  const auto& knots = a.string.knots;
+  const Knot &knot = knots[k], &behind = knots[std::min(k, other)];
+  const auto& medium = space_->media()[behind.medium];
+  if (!medium.room) return knot.at;
+  const Point &toward = knots[other].at, &free = other > k ? behind.leg.to : behind.leg.from;
+  if (k + 1 == knots.size())
+    return to == space_->nodes() ? attached_beside_
+                                 : medium.room->beside(medium.in_room(to), toward, behind.leg.to);
+  if (knot.place == nullptr) {
+    const Root& root = roots_[a.root];
+    return root.node != none ? medium.room->beside(medium.in_room(root.node), toward, free)
+                             : root.beside;
+  }
+  const Index q = place_of(knot);
+  if (space_->kind(q) != Kind::patch)
+    return space_->beside(q, behind.medium, knot.at, toward, free);
+  // On one side of a crack through the plane, for both legs.
+  const Point side = knot.at + (leg_before(a, k).from - knot.at) + (knot.leg.to - knot.at);
+  return space_->beside(q, behind.medium, knot.at, toward, side);
+}
+
+// At or near to a point.
+Knot Solver::knot(Index door, const Point& at) {
+  Knot knot{at, place(space_->place_of(door))};
+  const Place& p = *knot.place;
+  const Point d = at - p.origin;
+  knot.t = std::clamp(dot(d, p.along), p.low, p.high);
+  knot.u = dot(d, p.wide);
+  knot.door = door;
+  knot.medium = space_->medium_behind(door);
+  knot.slowness = slowness(knot.medium);
+  knot.leg = {at, at, false};
+  return knot;
+}
+
+// Between the end of the string as it was and a point on the way to the new one.
+void Solver::append(Attempt& a, Index door, const Point& toward) {
+  auto& knots = a.string.knots;
+  const Point& from = at(from_);
+  Knot last = knot(door, .5 * (from + toward));
+  // From where it is free: in that medium beside the point, which tells the side of a crack.
+  const Index n = space_->node(point_of(from_), last.medium);
+  const auto& medium = space_->media()[last.medium];
+  const Point beside =
+      medium.room && n != none ? medium.room->beside(medium.in_room(n), toward, toward) : from;
+  last.leg = {beside, beside, false};
+  knots.insert(knots.end() - 1, last);
+}
+
+// Instead of the places of some knots others, at a point.
+void Solver::replace(Attempt& a, std::size_t begin, std::size_t end, std::span<const Index> doors,
+                     const Point& at) {
+  auto& knots = a.string.knots;
+  const Point to = knots[end - 1].leg.to;
+  const auto b = knots.begin() + static_cast<std::ptrdiff_t>(begin);
+  if (doors.size() < end - begin)
+    knots.erase(b, b + static_cast<std::ptrdiff_t>(end - begin - doors.size()));
+  else
+    knots.insert(b, doors.size() - (end - begin), Knot{});
+  for (std::size_t n = 0; n < doors.size(); ++n) knots[begin + n] = knot(doors[n], at);
+  Leg& first = knots[begin - 1].leg;
+  first.known = false;
+  if (doors.empty()) return;
+  first.to = at;
+  knots[begin + doors.size() - 1].leg.to = to;
+}
+
+// The string of the node that offers, to another end.
+void Solver::start(Index to) {
+  constexpr std::size_t loose = 3;
+  const auto& base = base_.string.knots;
+  Attempt& a = attempt_;
+  a.held = std::max(base.size(), loose + 2) - (loose + 2);
+  a.string.knots.assign(base.begin() + static_cast<std::ptrdiff_t>(a.held), base.end());
+  a.string.knots.back().at = at(to);
+  a.string.before = base[a.held].before;
+  a.root = base_.root;
+  a.touched = false;
+  a.splits = 0;
+}
+
+// So many of the knots that are held are no longer.
+void Solver::release(Attempt& a, std::size_t count) {
+  const auto& base = base_.string.knots;
+  const auto end = base.begin() + static_cast<std::ptrdiff_t>(a.held);
+  a.held -= std::min(count, a.held);
+  a.string.knots.insert(a.string.knots.begin(), base.begin() + static_cast<std::ptrdiff_t>(a.held),
+                        end);
+  a.string.before = base[a.held].before;
+}
+
+bool Solver::is_edge(const Attempt& a) const {
+  const Knot& knot = a.string.knots[a.string.bends()];
+  if (knot.place == nullptr) return roots_[a.root].node == from_;
+  const Index p = point_of(from_);
+  return knot.place->vertex == p && space_->node(p, knot.medium) != none;
+}
+
+// The last leg that leaves its medium; as many as there are legs: none does.
+std::size_t Solver::blocked(const Attempt& a, Index to) {
+  const auto moved = [](const Point& p, const Point& q) {
+    const Point d = p - q;
+    return dot(d, d) > unmoved * unmoved;
+  };
+  const auto& knots = a.string.knots;
+  const std::size_t legs = knots.size() - 1;
+  for (std::size_t k = legs; k-- > 0;) {
+    const auto& medium = space_->media()[knots[k].medium];
+    if (!medium.room) continue;
+    if (k + 1 == legs && is_edge(a)) continue;
+    const Point from = end_of_leg(a, k, k + 1, to), end = end_of_leg(a, k + 1, k, to);
+    const Leg& leg = knots[k].leg;
+    if (leg.known && !moved(from, leg.from) && !moved(end, leg.to)) continue;
+    if (medium.room->sight().is_blocked(from, end)) return k;
+  }
+  return legs;
+}
+
+bool Solver::insert_touched(Attempt& a, std::size_t k, Index to) {
+  const auto& knots = a.string.knots;
+  const Leg leg = knots[k].leg;
+  const auto& medium = space_->media()[knots[k].medium];
+  const Point from = end_of_leg(a, k, k + 1, to), end = end_of_leg(a, k + 1, k, to);
+  const auto own = [&](const Knot& knot) {
+    const Index p = knot.place == nullptr ? none : place_of(knot);
+    return p == none || space_->kind(p) != Kind::bend || p < medium.first_bend
+               ? none
+               : p - medium.first_bend;
+  };
+  const std::array<Index, 2> known = {own(knots[k]), own(knots[k + 1])};
+  // It turns about the end that moved less.
+  const bool backward = norm(leg.from - from) > norm(leg.to - end);
+  const auto touch = backward ? medium.room->sight().touch(end, from, leg.from, known)
+                              : medium.room->sight().touch(from, end, leg.to, known);
+  if (!touch) return false;
+  a.touched = true;
+  const Index number = medium.first_bend + touch->place;
+  const Place& place = space_->place(number);
+  const Point at = place.at(touch->at), beside = place.beside(touch->at, space_->aside());
+  replace(a, k + 1, k + 1, std::array{space_->first_door(number)}, at);
+  a.string.knots[k].leg = {leg.from, beside, false};
+  a.string.knots[k + 1].leg = {beside, leg.to, false};
+  return true;
+}
+
+// Has a node had a string along these places, or tried it?
+bool Solver::is_known(const Attempt& a, Index to) const {
+  const auto& knots = a.string.knots;
+  Index chain = knots[0].chain;
+  for (std::size_t k = 1; k + 1 < knots.size() && chain != none; ++k)
+    chain = chains_.find(chain, knots[k].door);
+  return chain != none && nodes_[to].knows(chain);
+}
+
+// Pulled, places dropped and put in until all legs are free; no further if it is of no use, or
+// as long as `least`. Of a long string its end first, the rest held as it is.
+Solver::Outcome Solver::settle(Attempt& a, Index to, double least) {
+  constexpr int most = 48;
+  constexpr double exact = 1e-14;
+  String& string = a.string;
+  bool useless = false;
+  for (int round = 0; round < most; ++round) {
+    puller_.pull(string);
+    if (rearrange(a, to, useless)) {
+      if (string.bends() < 2) release(a, 3 - string.bends());
+      if (is_known(a, to)) return Outcome::longer;
+      continue;
+    }
+    if (useless) return Outcome::longer;
+    const auto is_useful = [&](double length) {
+      return length < least + offset(a) && length < direct_ &&
+             length * (1 + 1e-12) < limit(to, last_leg(a));
+    };
+    double more = 0;
+    if (a.held > 0) {
+      const Knot& before = base_.string.knots[a.held - 1];
+      more = slack(string, base_.string.direction(a.held - 1), before.slowness);
+    }
+    if (!is_useful(length(a) - more)) return Outcome::longer;
+    const std::size_t leg =
+        more > 0 && !is_useful(length(a)) ? string.knots.size() : blocked(a, to);
+    if (leg + 1 < string.knots.size()) {
+      if (!insert_touched(a, leg, to)) break;
+      if (is_known(a, to)) return Outcome::longer;
+    } else if (leg + 1 == string.knots.size() && more <= exact * string.length) {
+      return Outcome::free;
+    } else {
+      release(a, a.held);
+    }
+  }
+  release(a, a.held);
+  puller_.pull(string);
+  return Outcome::stuck;
+}
+
+}  // namespace plexway::strings
