@@ -48,7 +48,8 @@ class Growth<TetMesh<Real>> {
 
   /// The next source in a tetrahedron or at a vertex, sigma walked to it; no farther than radius.
   void add(Index t, const Weights& weights, Real sigma, Index /*number*/, Real radius) {
-    const strings::Source source = in(t, weights, static_cast<double>(sigma));
+    strings::Inside inside;
+    const strings::Source source = in(t, weights, static_cast<double>(sigma), inside);
     grow({&source, 1}, radius);
   }
   void add_vertex(Index vertex, Real sigma, Index /*number*/, Real radius) {
@@ -58,7 +59,9 @@ class Growth<TetMesh<Real>> {
   /// Many: `points[i]` is number i.
   void add_all(std::span<const std::pair<Index, Weights>> points, Real radius) {
     std::vector<strings::Source> sources;
-    for (const auto& [t, weights] : points) sources.push_back(in(t, weights, 0));
+    std::vector<strings::Inside> inside(points.size());
+    for (const auto& [t, weights] : points)
+      sources.push_back(in(t, weights, 0, inside[sources.size()]));
     grow(sources, radius);
   }
   void add_all_vertices(std::span<const Index> vertices) {
@@ -72,8 +75,10 @@ class Growth<TetMesh<Real>> {
   template <class Reach>
   [[nodiscard]] bool is_near_another(Index vertex, Index t, const Weights& weights, Real radius,
                                      const Reach& reach) {
-    const strings::Source source =
-        vertex != none ? source_at(space(), vertex, 0) : source_in(mesh_, space(), t, weights, 0);
+    strings::Inside inside;
+    const strings::Source source = vertex != none
+                                       ? source_at(space(), vertex, 0)
+                                       : source_in(mesh_, space(), t, weights, 0, inside);
     std::vector<Index> near;
     double farthest = 0;
     each_source_around(vertex != none ? std::span(&vertex, 1) : std::span(corners_of(t), 4),
@@ -223,10 +228,10 @@ class Growth<TetMesh<Real>> {
     seeds_.push_back({source.at, vertex, none, sigma});
     return source;
   }
-  strings::Source in(Index t, const Weights& weights, double sigma) {
+  strings::Source in(Index t, const Weights& weights, double sigma, strings::Inside& inside) {
     for (std::size_t i = 0; i < 4; ++i)
       if (weights[i] == 1) return at(corners_of(t)[i], sigma);
-    strings::Source source = source_in(mesh_, space(), t, weights, sigma);
+    strings::Source source = source_in(mesh_, space(), t, weights, sigma, inside);
     in_tet_.emplace(t, static_cast<Index>(seeds_.size()));
     seeds_.push_back({source.at, none, t, sigma});
     return source;

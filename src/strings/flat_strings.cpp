@@ -27,7 +27,7 @@ void FlatStrings::solve(const SimplicialComplex<Real, 4>& complex,
   field.complete =
       solver_->solve(roots, options.radius / unit, options.max_expansions,
                      [&](std::size_t expansions, double distance) {
-                       strings::tell(options, expansions, complex.simplex_count(), distance * unit);
+                       strings::report(options, expansions, complex.simplex_count(), distance * unit);
                      });
   strings::to_field(complex, *solver_, sources, options.radius, field);
   field.statistics.expansions = solver_->expansions();

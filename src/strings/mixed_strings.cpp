@@ -27,7 +27,8 @@ std::vector<strings::Inside> inside_of(const strings::MediaSpace& media, const s
   return inside;
 }
 
-strings::Source source_of(const MixedSpace& space, const PointSource& given) {
+strings::Source source_of(const MixedSpace& space, const PointSource& given,
+                          std::vector<strings::Inside>& inside) {
   const strings::MediaSpace& media = *space.media;
   strings::Source source;
   source.offset = given.offset / media.unit();
@@ -38,7 +39,7 @@ strings::Source source_of(const MixedSpace& space, const PointSource& given) {
     source.point = corner_of(media, simplex, given);
     source.at = media.at(simplex, given.barycentric);
     if (source.point == none)
-      source.inside =
+      source.inside = inside =
           inside_of(media, source.at, media.simplices_around(simplex, given.barycentric));
   }
   if (source.point != none) source.at = media.point(source.point);
@@ -57,7 +58,9 @@ void MixedStrings::solve(const MixedComplex<Real>& domain, std::shared_ptr<const
     space_ = std::move(space);
   }
   sources_.clear();
-  for (const PointSource& s : sources) sources_.push_back(source_of(*space_, s));
+  inside_.assign(sources.size(), {});
+  for (const PointSource& s : sources)
+    sources_.push_back(source_of(*space_, s, inside_[sources_.size()]));
   const double unit = media.unit();
   strings::Limits limits;
   limits.radius = options.radius / unit;
@@ -111,8 +114,8 @@ MixedStrings::Found MixedStrings::at(const PointSource& point) const {
       const strings::Point at = media.at(simplex, point.barycentric);
       const auto inside = inside_of(media, at, media.simplices_around(simplex, point.barycentric));
       std::vector<Index> own;  // sources that share one of these
-      for (Index n = 0; n < sources_.size(); ++n)
-        if (!sources_[n].inside.empty()) own.push_back(n);
+      for (Index n = 0; n < inside_.size(); ++n)
+        if (!inside_[n].empty()) own.push_back(n);
       solver_->attach(at, inside, own);
     }
   }

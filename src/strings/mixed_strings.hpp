@@ -47,6 +47,7 @@ class MixedStrings {
   std::unique_ptr<strings::Solver> solver_;
   mutable std::mutex asked_;
   std::vector<strings::Source> sources_;
+  std::vector<std::vector<strings::Inside>> inside_;  // of each
 };
 
 }  // namespace plexway

@@ -59,7 +59,6 @@ struct Place {
   /// Does a string press against the obstacle between legs that leave at these angles? A leg in
   /// the plane of a crack is on both of its sides.
   [[nodiscard]] bool presses(double a, double b) const {
-    constexpr double slack = 1e-6;  // costs its square
     if (std::min(a, b) < -slack || std::max(a, b) > angle + slack) return true;
     const auto sides = [&](double x) {
       constexpr double same = 1e-10;
@@ -71,7 +70,43 @@ struct Place {
     return std::max(most_a - least_b, most_b - least_a) >= std::numbers::pi - slack;
   }
 
+  /// The same between the directions of legs that were turned there from others, by less than half
+  /// a turn each: by signs, but in a crack.
+  [[nodiscard]] bool presses(const Point& a, const Point& before_a, const Point& b,
+                             const Point& before_b) const {
+    if (angle > turn - 1e-3) return presses(angle_of(a, before_a), angle_of(b, before_b));
+    const Across in = across(a), out = across(b);
+    return leads_in(in) || leads_in(out) || are_around(in, out) ||
+           (dot(before_a, before_a) > 1e-18 && are_around(across(before_a), in)) ||
+           (dot(before_b, before_b) > 1e-18 && are_around(across(before_b), out));
+  }
+
   static constexpr double turn = 2 * std::numbers::pi;
+
+ private:
+  /// A direction across the place: along the middle of the obstacle, and square to that.
+  struct Across {
+    double x, y;
+  };
+  [[nodiscard]] Across across(const Point& direction) const {
+    const double cosine = dot(into, floor), sine = dot(into, normal);
+    const double x = dot(direction, floor), y = dot(direction, normal);
+    return {-cosine * x - sine * y, sine * x - cosine * y};
+  }
+  static constexpr double slack = 1e-6;  // of angles; costs its square
+  [[nodiscard]] bool leads_in(const Across& d) const {
+    const double depth = dot(into, normal) * d.x + dot(into, floor) * std::abs(d.y);
+    return depth > 0 && depth * depth > slack * slack * (d.x * d.x + d.y * d.y);
+  }
+  /// Is the way between two directions through the solid half a turn or more?
+  [[nodiscard]] static bool are_around(const Across& a, const Across& b) {
+    if ((a.y >= 0) == (b.y >= 0)) return false;
+    const Across &left = a.y >= 0 ? a : b, &right = a.y >= 0 ? b : a;
+    const double sine = left.x * right.y - left.y * right.x,
+                 cosine = left.x * right.x + left.y * right.y;
+    if (sine <= 0) return cosine <= 0 || left.x > 0;
+    return cosine < 0 && sine < -slack * cosine;
+  }
 };
 
 }  // namespace plexway::strings

@@ -362,7 +362,7 @@ void Puller::pull_by(String& string) {
     const bool kinked = share < 1;
     const double least = shortest * share;
     bool shorter = false;
-    for (; !shorter && share >= least; share /= 3) {
+    for (; !shorter && share > 0 && share >= least; share /= 3) {
       shorter = step<D>(string, share, ends ? -rounding * string.length : -1e-4 * share * slope);
       if (ends) break;
     }

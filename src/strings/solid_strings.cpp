@@ -18,21 +18,6 @@ strings::Source source_at(const strings::MediaSpace& space, Index vertex, double
   return source;
 }
 
-namespace {
-
-template <class Real>
-strings::Source source_of(const TetMesh<Real>& mesh, const strings::MediaSpace& space,
-                          const PointSource& given) {
-  const double offset = given.offset / mesh.unit();
-  if (given.vertex != none) return source_at(space, mesh.inside_vertex(given.vertex), offset);
-  const auto [tet, turned] = mesh.inside_tet(given.simplex);
-  std::array<double, 4> b = given.barycentric;
-  if (turned) std::swap(b[2], b[3]);
-  return source_in(mesh, space, tet, b, offset);
-}
-
-}  // namespace
-
 template <class Real>
 strings::Inside inside_of(const TetMesh<Real>& mesh, const strings::MediaSpace& space, Index tet,
                           const Point& at) {
@@ -46,15 +31,32 @@ strings::Inside inside_of(const TetMesh<Real>& mesh, const strings::MediaSpace& 
   return inside;
 }
 
+namespace {
+
+template <class Real>
+strings::Source source_of(const TetMesh<Real>& mesh, const strings::MediaSpace& space,
+                          const PointSource& given, strings::Inside& inside) {
+  const double offset = given.offset / mesh.unit();
+  if (given.vertex != none) return source_at(space, mesh.inside_vertex(given.vertex), offset);
+  const auto [tet, turned] = mesh.inside_tet(given.simplex);
+  std::array<double, 4> b = given.barycentric;
+  if (turned) std::swap(b[2], b[3]);
+  return source_in(mesh, space, tet, b, offset, inside);
+}
+
+}  // namespace
+
 template <class Real>
 strings::Source source_in(const TetMesh<Real>& mesh, const strings::MediaSpace& space, Index tet,
-                          const std::array<double, 4>& weight, double offset) {
+                          const std::array<double, 4>& weight, double offset,
+                          strings::Inside& inside) {
   strings::Source source;
   source.offset = offset;
   source.at = {0, 0, 0};
   for (std::size_t i = 0; i < 4; ++i)
     source.at = source.at + weight[i] * space.point(mesh.tets()[tet].corner[i]);
-  source.inside.push_back(inside_of(mesh, space, tet, source.at));
+  inside = inside_of(mesh, space, tet, source.at);
+  source.inside = {&inside, 1};
   return source;
 }
 
@@ -79,10 +81,11 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
   sources_.clear();
   inside_.clear();
   inside_.reserve(sources.size());
-  for (const PointSource& s : sources) {
-    if (s.vertex == none)
-      inside_.emplace_back(mesh.inside_tet(s.simplex).first, static_cast<Index>(sources_.size()));
-    sources_.push_back(source_of(mesh, *space_, s));
+  tets_.resize(sources.size());
+  for (Index n = 0; n < sources.size(); ++n) {
+    const PointSource& s = sources[n];
+    if (s.vertex == none) inside_.emplace_back(mesh.inside_tet(s.simplex).first, n);
+    sources_.push_back(source_of(mesh, *space_, s, tets_[n]));
   }
   std::sort(inside_.begin(), inside_.end());
   strings::Limits limits;
@@ -90,7 +93,7 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
   limits.expansions = options.max_expansions;
   if (options.progress)
     limits.progress = [&](std::size_t expansions, double distance) {
-      strings::tell(options, expansions, mesh.tet_count(), distance * mesh.unit());
+      strings::report(options, expansions, mesh.tet_count(), distance * mesh.unit());
     };
   field.complete = solver_->solve(sources_, limits);
   strings::to_field(mesh, *solver_, sources, options.radius, field);
@@ -131,7 +134,7 @@ SolidStrings::Found SolidStrings::at(const TetMesh<Real>& mesh, Index tet,
 
 std::size_t SolidStrings::bytes() const {
   return sizeof(*this) + (solver_ ? solver_->bytes() : 0) +
-         sources_.capacity() * sizeof(strings::Source);
+         sources_.capacity() * sizeof(strings::Source) + tets_.capacity() * sizeof(strings::Inside);
 }
 
 template std::shared_ptr<const strings::MediaSpace> space_of(const TetMesh<float>&);
@@ -141,9 +144,9 @@ template strings::Inside inside_of(const TetMesh<float>&, const strings::MediaSp
 template strings::Inside inside_of(const TetMesh<double>&, const strings::MediaSpace&, Index,
                                    const Point&);
 template strings::Source source_in(const TetMesh<float>&, const strings::MediaSpace&, Index,
-                                   const std::array<double, 4>&, double);
+                                   const std::array<double, 4>&, double, strings::Inside&);
 template strings::Source source_in(const TetMesh<double>&, const strings::MediaSpace&, Index,
-                                   const std::array<double, 4>&, double);
+                                   const std::array<double, 4>&, double, strings::Inside&);
 
 template void SolidStrings::solve(const TetMesh<float>&, std::span<const PointSource>,
                                   const PropagateOptions&, DistanceField<float>&);

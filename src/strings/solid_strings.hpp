@@ -23,11 +23,13 @@ namespace plexway {
 template <class Real>
 strings::Inside inside_of(const TetMesh<Real>& mesh, const strings::MediaSpace& space, Index tet,
                           const strings::Point& at);
-/// A vertex, or a point of a tetrahedron by one coordinate a corner, as a source; inside.
+/// A vertex as a source; inside.
 strings::Source source_at(const strings::MediaSpace& space, Index vertex, double offset);
+/// A point of a tetrahedron by one coordinate a corner; `inside` is what it keeps of that.
 template <class Real>
 strings::Source source_in(const TetMesh<Real>& mesh, const strings::MediaSpace& space, Index tet,
-                          const std::array<double, 4>& weight, double offset);
+                          const std::array<double, 4>& weight, double offset,
+                          strings::Inside& inside);
 /// A solid as one medium, which it keeps.
 template <class Real>
 std::shared_ptr<const strings::MediaSpace> space_of(const TetMesh<Real>& mesh);
@@ -66,6 +68,7 @@ class SolidStrings {
   std::unique_ptr<strings::Solver> solver_;
   mutable std::mutex asked_;
   std::vector<strings::Source> sources_;         // of a solve; kept for its memory
+  std::vector<strings::Inside> tets_;            // likewise, of sources inside
   std::vector<std::pair<Index, Index>> inside_;  // tetrahedra with sources inside, and these
 };
 

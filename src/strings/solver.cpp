@@ -44,10 +44,10 @@ void Solver::clear() {
 
 bool Solver::add(std::span<const Source> sources, const Limits& limits) {
   const std::size_t before = counts_.expansions, first = sources_.size(), old = reached_.size();
-  sources_.insert(sources_.end(), sources.begin(), sources.end());
+  for (const Source& s : sources) sources_.push_back({s.at, s.offset});
   queue_.clear();
   base_node_ = none;
-  for (std::size_t n = first; n < sources_.size(); ++n) seed(static_cast<Index>(n));
+  for (std::size_t n = 0; n < sources.size(); ++n) seed(static_cast<Index>(first + n), sources[n]);
   while (!queue_.empty() || go_by_edges(old)) {
     std::pop_heap(queue_.begin(), queue_.end());
     const Offer next = queue_.back();
@@ -87,8 +87,7 @@ bool Solver::go_by_edges(std::size_t first) {
 }
 
 // A root for each medium that a source is in.
-void Solver::seed(Index number) {
-  const Source& source = sources_[number];
+void Solver::seed(Index number, const Source& source) {
   const Point zero = {0, 0, 0};
   const auto root = [&](Index medium, Index node, Index simplex, const Point& beside) {
     roots_.push_back({number, medium, node, simplex, beside});
@@ -248,7 +247,8 @@ Solver::Outcome Solver::offer(Index from, const Label& label, Index to, Index do
   const Outcome outcome = attempt(from, label, to, door);
   if (outcome == Outcome::free) accept(attempt_, to);
   // Where it was blocked it may come past on another side from another node.
-  if (outcome != Outcome::stuck && !attempt_.touched) known.remember(chain);
+  if (outcome != Outcome::stuck && !attempt_.touched && known.best().chain != none)
+    known.remember(chain);
   // One that is longer than the edge is no reason not to go there.
   return outcome == Outcome::longer && !(length(attempt_) < direct_) ? Outcome::stuck : outcome;
 }
@@ -358,7 +358,7 @@ void Solver::attach(const Point& at, std::span<const Inside> inside,
 
 double Solver::moved(Index node, const Label& label, const Point& at, const Point& beside) {
   const Root& root = root_of(label);
-  const Source& source = sources_[root.source];
+  const Origin& source = sources_[root.source];
   if (const auto& medium = space_->media()[root.medium];
       chains_.is_root(label.chain) && medium.room) {
     const Point from = root.node == none ? root.beside

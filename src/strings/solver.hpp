@@ -32,10 +32,11 @@ struct Inside {
   Point beside;                 ///< a little inside the medium
 };
 
+/// `inside` is looked at only when the source is added.
 struct Source {
   Point at;
-  Index point = none;          ///< of the space, if it is one
-  std::vector<Inside> inside;  ///< else all simplices that have it
+  Index point = none;              ///< of the space, if it is one
+  std::span<const Inside> inside;  ///< else all simplices that have it
   double offset = 0;
 };
 
@@ -103,6 +104,11 @@ class Solver {
   static constexpr double gain = 1e-7;     // slopes that count, of the slowness
   static constexpr double brief = 1e-5;    // legs that may have no length
 
+  /// What is kept of a source.
+  struct Origin {
+    Point at;
+    double offset;
+  };
   /// A source in one medium.
   struct Root {
     Index source, medium, node, simplex;
@@ -127,7 +133,7 @@ class Solver {
   };
   using Spot = std::array<double, 2>;
 
-  void seed(Index source);
+  void seed(Index number, const Source& source);
   bool go_by_edges(std::size_t first);
   void expand(Index node, const Label& label);
   void offer_through(Index node, const Label& label, Index to);
@@ -147,7 +153,8 @@ class Solver {
   [[nodiscard]] Index vertex_of(const Attempt& a, std::size_t k) const;
   bool past_corner(Attempt& a, Index to, Outcome& outcome, std::size_t begin, std::size_t end,
                    Index vertex);
-  bool past_media(Attempt& a, Index to, Outcome& outcome);
+  void past_media(Attempt& a, Index to, Outcome& outcome);
+  void past_row(Attempt& a, Index to, Outcome& outcome, std::size_t k);
   bool instead(Attempt& a, Index to, Outcome& outcome, std::size_t k, std::span<const Index> doors);
 
   bool collapse(Attempt& a, std::size_t leg, bool& useless);
@@ -217,7 +224,7 @@ class Solver {
 
   const MediaSpace* space_;
   bool plain_;  // one solid, its points the nodes
-  std::vector<Source> sources_;
+  std::vector<Origin> sources_;
   std::vector<Root> roots_;
   Chains chains_;
   std::vector<Spot> hints_;  // of a chain: where its last place was bent at last
@@ -235,7 +242,7 @@ class Solver {
   String single_;              // a problem at one point
   std::vector<Place> copies_;  // of its places
   std::vector<Point> apart_;   // and where they are
-  std::vector<Index> doors_;
+  std::vector<Index> doors_, places_;
   Index from_ = none;
   Point attached_ = {0, 0, 0}, attached_beside_ = {0, 0, 0};
   Index attached_medium_ = 0;

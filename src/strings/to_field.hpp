@@ -13,8 +13,8 @@
 /// Between strings and the library's options and fields.
 namespace plexway::strings {
 
-/// Tells how far strings are, in a domain of so many simplices; throws Cancelled.
-inline void tell(const PropagateOptions& options, std::size_t expansions, std::size_t simplices,
+/// Reports how far strings are, in a domain of so many simplices; throws Cancelled.
+inline void report(const PropagateOptions& options, std::size_t expansions, std::size_t simplices,
                  double distance) {
   if (options.progress &&
       !options.progress({expansions, std::min(expansions, simplices), simplices, distance}))

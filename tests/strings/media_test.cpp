@@ -174,20 +174,20 @@ TEST_CASE("strings over many planes are pulled to where Snell's law has them") {
     }
     strings::String string;
     const bool from_plane = random() % 2 == 0, to_plane = random() % 2 == 0;
-    string.from = {0, 0, from_plane ? layers.z[0] : layers.z[0] - share(0, 1)};
-    string.to = {share(0, 10), share(0, 3), to_plane ? z : z + share(0, 1)};
+    const Point from = {0, 0, from_plane ? layers.z[0] : layers.z[0] - share(0, 1)},
+                to = {share(0, 10), share(0, 3), to_plane ? z : z + share(0, 1)};
+    string.knots.push_back({from});
     for (const auto& p : places) {
       const double t = share(0, 1);
-      string.places.push_back(&p);
-      string.at.push_back(t * string.to.x - p.origin.x);
-      string.wide.push_back(t * string.to.y);
+      string.knots.push_back({{}, &p, t * to.x - p.origin.x, t * to.y});
     }
-    for (const double v : layers.v) string.slowness.push_back(1 / v);
+    string.knots.push_back({to});
+    for (std::size_t i = 0; i <= n; ++i) string.knots[i].slowness = 1 / layers.v[i];
     puller.pull(string);
-    const double x = std::hypot(string.to.x, string.to.y);
-    double truth = layers.through(x, string.from.z, string.to.z);
-    if (from_plane) truth = std::min(truth, layers.along(0, 0, x, string.from.z, string.to.z));
-    if (to_plane) truth = std::min(truth, layers.along(n - 1, n, x, string.from.z, string.to.z));
+    const double x = std::hypot(to.x, to.y);
+    double truth = layers.through(x, from.z, to.z);
+    if (from_plane) truth = std::min(truth, layers.along(0, 0, x, from.z, to.z));
+    if (to_plane) truth = std::min(truth, layers.along(n - 1, n, x, from.z, to.z));
     CAPTURE(k, n, from_plane, to_plane);
     CHECK(string.length == Approx(truth).epsilon(1e-10));
   }
