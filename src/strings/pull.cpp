@@ -395,4 +395,25 @@ bool is_held(const String& string, std::size_t n) {
   return low ? slope > outward : slope < -outward;
 }
 
+bool is_at_rest(const Place& one, const Point& in, const Place& two, const Point& out,
+                double slow) {
+  // The least vector that has the parts of `in` along one place and of `out` along the other.
+  std::array<Point, 3> axis;
+  std::size_t count = 0;
+  Point least = {0, 0, 0};
+  for (const auto& [along, slope] : {std::pair(one.along, in), std::pair(one.wide, in),
+                                     std::pair(two.along, out), std::pair(two.wide, out)}) {
+    Point a = along;
+    for (std::size_t i = 0; i < count; ++i) a = a - dot(a, axis[i]) * axis[i];
+    const double size = norm(a), part = dot(along, slope - least);
+    if (size < 1e-6) {
+      if (std::abs(part) > 1e-5 * slow) return false;
+      continue;
+    }
+    axis[count] = 1 / size * a;
+    least = least + part / size * axis[count++];
+  }
+  return dot(least, least) <= slow * slow * (1 + 1e-6);
+}
+
 }  // namespace plexway::strings

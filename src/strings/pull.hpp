@@ -83,4 +83,10 @@ class Puller {
 /// Is a bend of a taut string held at the end of its place, and would go on past it?
 [[nodiscard]] bool is_held(const String& string, std::size_t n);
 
+/// Does a string stay that has a leg without length between two places, in a medium of that
+/// slowness? `in` and `out` are the slopes before and behind it: there is one of the leg's with
+/// which nothing is gained along either place.
+[[nodiscard]] bool is_at_rest(const Place& one, const Point& in, const Place& two, const Point& out,
+                              double slow);
+
 }  // namespace plexway::strings
