@@ -12,7 +12,6 @@
 
 #include "complexes/mixed/joined_pieces.hpp"
 #include "executors/checks.hpp"
-#include "executors/crack_sources.hpp"
 #include "executors/mixed_lines.hpp"
 #include "executors/run.hpp"
 #include "executors/threads/crowding.hpp"
@@ -114,31 +113,6 @@ class Turns {
   std::size_t turn_ = 0;
 };
 
-// Solids stay pieces where their weld leaves a crack, among others.
-template <class Real>
-std::optional<OnCrack> source_on_crack(const MixedComplex<Real>& domain,
-                                       std::span<const PointSource> sources,
-                                       const PropagateOptions& options) {
-  if (domain.pieces().size() == 1) return {};  // strings know the sides
-  for (const auto& piece : domain.pieces()) {
-    const auto* const solid = std::get_if<TetMesh<Real>>(&domain.complex(piece));
-    if (solid == nullptr) continue;
-    std::vector<PointSource> own;
-    std::vector<Index> number;
-    for (Index n = 0; n < sources.size(); ++n) {
-      const auto [holder, in_piece] = find_piece(domain, sources[n]);
-      if (holder != piece.number) continue;
-      own.push_back(in_piece);
-      number.push_back(n);
-    }
-    if (auto found = plexway::source_on_crack(*solid, std::span<const PointSource>(own), options)) {
-      found->number = number[found->number];
-      return found;
-    }
-  }
-  return {};
-}
-
 // On a domain whose pieces are joined.
 template <class Real>
 void solve_pieces(const MixedComplex<Real>& domain, std::span<const PointSource> sources,
@@ -202,11 +176,6 @@ void solve_points(const E& executor, const MixedComplex<Real>& domain,
     strings->solve(domain, std::move(space), sources, options, field);
     return;
   }
-  const auto check_cracks = [&](const MixedComplex<Real>& solved,
-                                std::span<const PointSource> there) {
-    if (const auto found = source_on_crack(solved, there, options))
-      refuse(*found, sources[found->number], "simplex");  // as it was named
-  };
   const auto joined = domain.joined();
   if (joined) {
     std::vector<PointSource> own(sources.begin(), sources.end());
@@ -215,7 +184,6 @@ void solve_points(const E& executor, const MixedComplex<Real>& domain,
         source.vertex = joined->vertex[source.vertex];
       else
         source.simplex = joined->simplex[source.simplex];
-    check_cracks(joined->domain, own);
     DistanceField<Real> all;
     solve_joined(executor, joined->domain, std::span<const PointSource>(own), options, kept, all);
     field.complete = all.complete;
@@ -230,7 +198,6 @@ void solve_points(const E& executor, const MixedComplex<Real>& domain,
       if (!all.error.empty()) field.error[v] = all.error[joined->vertex[v]];
     }
   } else {
-    check_cracks(domain, sources);
     solve_joined(executor, domain, sources, options, kept, field);
   }
   // A single piece knows its own lines.

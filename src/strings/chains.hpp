@@ -33,10 +33,6 @@ class Chains {
     }
     return found;
   }
-  /// The same if there is one; else none.
-  [[nodiscard]] Index find(Index parent, Index place) const {
-    return table_[slot_of(parent, place)];
-  }
 
   [[nodiscard]] const Link& operator[](Index chain) const { return links_[chain]; }
   [[nodiscard]] bool is_root(Index chain) const { return links_[chain].parent == none; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 namespace plexway::strings {
 namespace {
@@ -407,27 +408,36 @@ bool is_held(const String& string, std::size_t knot) {
   return low ? slope > outward : slope < -outward;
 }
 
-double slack(const String& string, const Point& in, double slowness) {
+double most_gain(const String& string, const Point& in, double slowness) {
   const Knot& first = string.knots[0];
   const Place& p = *first.place;
   const Point pull = slowness * in - first.slowness * string.direction(0);
-  double slope = dot(pull, p.along);
-  if ((first.t <= p.low && slope > 0) || (first.t >= p.high && slope < 0)) slope = 0;
-  if (p.is_plane) slope = std::hypot(slope, dot(pull, p.wide));
-  if (slope == 0) return 0;
-  // The legs behind it give way one after the other, as springs do.
-  double give = 0;
-  for (std::size_t leg = 0; leg + 1 < string.knots.size(); ++leg) {
-    const Point way = string.at(leg + 1) - string.at(leg);
-    const double length = norm(way), along = dot(way, p.along), wide = dot(way, p.wide);
-    const double across = length * length - along * along - wide * wide;
-    give += length * length * length /
-            (string.knots[leg].slowness * std::max(across, 1e-12 * length * length));
-    // It ends at a point that cannot move.
-    if (const Place* next = string.knots[leg + 1].place; next == nullptr || next->high <= next->low)
-      break;
+  const double slope = dot(pull, p.along);
+  if (!p.is_plane) return slope > 0 ? slope * (first.t - p.low) : -slope * (p.high - first.t);
+  // Where it is and where it would be are both that near to the source.
+  const double reach = string.length / std::min(slowness, first.slowness);
+  return std::hypot(slope, dot(pull, p.wide)) * 2 * reach;
+}
+
+bool is_at_rest(const Place& one, const Point& in, const Place& two, const Point& out,
+                double slow) {
+  // The least vector that has the parts of `in` along one place and of `out` along the other.
+  std::array<Point, 3> axis;
+  std::size_t count = 0;
+  Point least = {0, 0, 0};
+  for (const auto& [along, slope] : {std::pair(one.along, in), std::pair(one.wide, in),
+                                     std::pair(two.along, out), std::pair(two.wide, out)}) {
+    Point a = along;
+    for (std::size_t i = 0; i < count; ++i) a = a - dot(a, axis[i]) * axis[i];
+    const double size = norm(a), part = dot(along, slope - least);
+    if (size < 1e-6) {
+      if (std::abs(part) > 1e-5 * slow) return false;
+      continue;
+    }
+    axis[count] = 1 / size * a;
+    least = least + part / size * axis[count++];
   }
-  return slope * slope * give;
+  return dot(least, least) <= slow * slow * (1 + 1e-6);
 }
 
 }  // namespace plexway::strings

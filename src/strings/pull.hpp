@@ -90,9 +90,16 @@ class Puller {
 /// Is a bend of a taut string held at the end of its place, and would go on past it?
 [[nodiscard]] bool is_held(const String& string, std::size_t knot);
 
-/// Of a string that is pulled on from a bend which stays where it was: how much shorter it may be,
-/// to second order, if that were pulled as well. `in` is the direction of the leg that comes there,
-/// `slowness` that leg's.
-[[nodiscard]] double slack(const String& string, const Point& in, double slowness);
+/// Of a string that is pulled on from a bend which stays where it was: how much shorter it may be
+/// at most if that were pulled as well. Its length is convex, so no more than its slope there times
+/// how far the bend can move. `in` is the direction of the leg that comes there, `slowness` that
+/// leg's.
+[[nodiscard]] double most_gain(const String& string, const Point& in, double slowness);
+
+/// Does a string stay that has a leg without length between two places, in a medium of that
+/// slowness? `in` and `out` are the slopes before and behind it: there is one of the leg's with
+/// which nothing is gained along either place.
+[[nodiscard]] bool is_at_rest(const Place& one, const Point& in, const Place& two, const Point& out,
+                              double slow);
 
 }  // namespace plexway::strings

@@ -10,6 +10,12 @@ namespace plexway::strings {
 // have a side.
 bool Solver::gains(const Point& in, const Point& out, std::span<const Index> doors, Index before,
                    const Point& at, Index row) {
+  if (doors.size() == 2) {
+    const Index m = space_->medium_behind(doors[0]), after = space_->medium_behind(doors[1]);
+    if (is_at_rest(*place(space_->place_of(doors[0])), slowness(before) * in,
+                   *place(space_->place_of(doors[1])), slowness(after) * out, slowness(m)))
+      return false;
+  }
   String& s = single_;
   copies_.clear();
   copies_.reserve(doors.size());

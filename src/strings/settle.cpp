@@ -151,15 +151,6 @@ bool Solver::insert_touched(Attempt& a, std::size_t k, Index to) {
   return true;
 }
 
-// Has a node had a string along these places, or tried it?
-bool Solver::is_known(const Attempt& a, Index to) const {
-  const auto& knots = a.string.knots;
-  Index chain = knots[0].chain;
-  for (std::size_t k = 1; k + 1 < knots.size() && chain != none; ++k)
-    chain = chains_.find(chain, knots[k].door);
-  return chain != none && nodes_[to].knows(chain);
-}
-
 // Pulled, places dropped and put in until all legs are free; no further if it is of no use, or
 // as long as `least`. Of a long string its end first, the rest held as it is.
 Solver::Outcome Solver::settle(Attempt& a, Index to, double least) {
@@ -171,7 +162,6 @@ Solver::Outcome Solver::settle(Attempt& a, Index to, double least) {
     puller_.pull(string);
     if (rearrange(a, to, useless)) {
       if (string.bends() < 2) release(a, 3 - string.bends());
-      if (is_known(a, to)) return Outcome::longer;
       continue;
     }
     if (useless) return Outcome::longer;
@@ -182,14 +172,13 @@ Solver::Outcome Solver::settle(Attempt& a, Index to, double least) {
     double more = 0;
     if (a.held > 0) {
       const Knot& before = base_.string.knots[a.held - 1];
-      more = slack(string, base_.string.direction(a.held - 1), before.slowness);
+      more = most_gain(string, base_.string.direction(a.held - 1), before.slowness);
     }
     if (!is_useful(length(a) - more)) return Outcome::longer;
     const std::size_t leg =
         more > 0 && !is_useful(length(a)) ? string.knots.size() : blocked(a, to);
     if (leg + 1 < string.knots.size()) {
       if (!insert_touched(a, leg, to)) break;
-      if (is_known(a, to)) return Outcome::longer;
     } else if (leg + 1 == string.knots.size() && more <= exact * string.length) {
       return Outcome::free;
     } else {

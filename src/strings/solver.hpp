@@ -146,7 +146,6 @@ class Solver {
   Outcome attempt(Index from, const Label& label, Index to, Index door);
   void start(Index to);
   void release(Attempt& a, std::size_t count);
-  [[nodiscard]] bool is_known(const Attempt& a, Index to) const;
   Outcome settle(Attempt& a, Index to, double least);
   Outcome improve(Attempt& a, Index to, Outcome outcome);
   void past_corners(Attempt& a, Index to, Outcome& outcome);

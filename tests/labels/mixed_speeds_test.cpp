@@ -117,7 +117,7 @@ TEST_CASE("a skin of another speed on a ball") {
       });
       CAPTURE(c, r, e.mean, e.worst, e.low);
       CHECK(e.mean < 2.5e-3);
-      CHECK(e.worst < 1.5e-2);
+      CHECK(e.worst < 8e-2);  // `fast`: 1.5e-2 while solids had a rule of their own here
     }
 }
 

@@ -144,7 +144,7 @@ TEST_CASE("solids without cracks take sources anywhere, also where they touch an
     if (pair.places[v][0] == 0) CHECK(refusal(both, PointSource::at(v)).empty());
 }
 
-TEST_CASE("a source on a crack of a piece is right, where it lies nowhere refused by its number") {
+TEST_CASE("a source on a crack of a piece is right, as good as fast where it lies nowhere") {
   const Cracked cracked(one_slit, 0.16, 3, 0.3);
   Cracked block(one_slit, 0.16, 3, 0.3);
   for (auto& p : block.places) p[0] -= 1;        // beside it: the walls meet
@@ -161,11 +161,6 @@ TEST_CASE("a source on a crack of a piece is right, where it lies nowhere refuse
     for (Index v = 0; v < cracked.floor(); ++v) {
       if (cracked.on_lip[v] == 0) continue;
       const Index number = second.first_vertex + v;
-      if (!lies) {
-        const std::string said = refusal(domain, PointSource::at(number));
-        CHECK(said.find("source vertex " + std::to_string(number) + " lies on a crack") == 0);
-        continue;
-      }
       const auto field = solve(Serial{}, domain, PointSource::at(number));
       const auto begin = field.distance.begin() + second.first_vertex;
       const std::vector<double> own(begin,
@@ -173,19 +168,20 @@ TEST_CASE("a source on a crack of a piece is right, where it lies nowhere refuse
       const Errors e = compare(own, cracked.exact(cracked.beside[v]));
       CAPTURE(v, e.mean, e.max, e.below);
       CHECK(e.fits);
-      CHECK(e.max <= 1e-6);
+      if (lies) {
+        CHECK(e.max <= 1e-6);
+        continue;
+      }
+      PropagateOptions options;
+      options.accuracy = Accuracy::fast();
+      const TetMesh<double> alone(cracked.places, cracked.tets);
+      const Errors fast = compare(solve(Serial{}, alone, PointSource::at(v), options).distance,
+                                  cracked.exact(cracked.beside[v]));
+      CAPTURE(fast.mean, fast.max, fast.below);
+      CHECK(e.mean <= 1.1 * fast.mean);
+      CHECK(e.max <= fast.max + 1e-9);
+      CHECK(e.below >= -1e-2);
     }
-    if (lies) continue;
-    const auto t = static_cast<Index>(std::find_if(cracked.tets.begin(), cracked.tets.end(),
-                                                   [&](const auto& tet) {
-                                                     return tet[0] < cracked.floor() &&
-                                                            cracked.on_lip[tet[0]] != 0;
-                                                   }) -
-                                      cracked.tets.begin());
-    const std::string said =
-        refusal(domain, PointSource::in(second.first_simplex + t, {.997, .001, .001, .001}));
-    CHECK(said.find("a source in simplex " + std::to_string(second.first_simplex + t) +
-                    " lies on a crack") == 0);
   }
 }
 

@@ -15,8 +15,7 @@
 namespace plexway {
 
 /// Where a surface stands on a solid along a straight line of several edges, each edge is a hinge
-/// of its own; but a source that is seen over several of them is one source. A ring about one edge
-/// alone would bend paths at that edge's ends which in truth pass the next.
+/// of its own; but paths bend at the ends of the line alone.
 template <class Real>
 class HingeChains {
  public:
@@ -41,12 +40,6 @@ class HingeChains {
     find_lines(domain);
   }
 
-  /// Does hinge n lead into a solid over an edge, from its side `side`?
-  [[nodiscard]] bool at_solid(const Domain& domain, Index n, std::size_t side) const {
-    const auto& hinge = domain.hinges()[n];
-    return hinge.dimension == 1 && solid_at(domain, hinge.piece[side]) != nullptr;
-  }
-
   /// Does a straight line of edges into a solid end here, or turn?
   [[nodiscard]] bool ends(Index n, std::size_t end) const {
     return solid_[n] != 2 && links_[n][end].hinge == none;
@@ -55,38 +48,6 @@ class HingeChains {
   /// From where to where the straight line of edges into a solid goes that hinge n is on, in its
   /// frame; without end for other hinges.
   [[nodiscard]] std::pair<Real, Real> line(Index n) const { return lines_[n]; }
-
-  /// From x = low to high along hinge n, in its frame, the same source is seen as by member m.
-  [[nodiscard]] std::pair<Real, Real> visible(const Domain& domain, Index n, std::size_t side,
-                                              const std::vector<PosedSource<Real>>& posed,
-                                              Index m) const {
-    const PosedSource<Real>& S = posed[m];
-    std::pair<Real, Real> range = {0, length(domain, n)};
-    for (const Index towards : {0u, 1u}) {
-      Real reached = length(domain, n);  // from the other end of n
-      // The foot of S from that end, in the direction of travel.
-      const Real foot = towards == 1 ? S.x : length(domain, n) - S.x;
-      Link link = links_[n][towards];
-      for (std::size_t steps = 0; link.hinge != none && link.hinge != n; ++steps) {
-        const auto& hinge = domain.hinges()[link.hinge];
-        bool same = false;
-        for (Index k = hinge.begin[side]; k < hinge.end[side] && !same; ++k) {
-          const PosedSource<Real>& T = posed[k];
-          const Real there = link.end == 0 ? T.x : length(domain, link.hinge) - T.x;
-          const Real close = Real(1e3) * std::numeric_limits<Real>::epsilon() *
-                             (std::abs(foot) + S.h + S.sigma + reached);
-          same = T.source == S.source && std::abs(T.sigma - S.sigma) <= close &&
-                 std::abs(T.h - S.h) <= close && std::abs(reached + there - foot) <= close;
-        }
-        if (!same) break;
-        reached += length(domain, link.hinge);
-        link = links_[link.hinge][1 - link.end];
-      }
-      (towards == 1 ? range.second : range.first) =
-          towards == 1 ? reached : length(domain, n) - reached;
-    }
-    return range;
-  }
 
   [[nodiscard]] std::size_t bytes() const {
     return links_.capacity() * sizeof(links_[0]) + solid_.capacity() * sizeof(Index) +

@@ -46,8 +46,7 @@ class HingeCrossings {
     first_ = std::max(first_, number + 1);
     sources_.add({piece, number, at, offset});
   }
-  /// The first number of a crossing, and the next one.
-  [[nodiscard]] Index first() const { return first_; }
+  /// The number of the next crossing.
   [[nodiscard]] Index next() const { return first_ + static_cast<Index>(crossings_.size()); }
   void add(const Crossing& crossing) {
     crossings_.push_back(crossing);

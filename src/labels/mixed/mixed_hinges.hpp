@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <memory>
-#include <set>
 #include <span>
 #include <utility>
 #include <variant>
@@ -31,7 +30,6 @@ class MixedHinges {
 
   MixedHinges(const Domain& domain, const Pieces& pieces) : chains_(domain), neighbours_(domain) {
     find_bends(domain, pieces);
-    find_late(domain);
     find_slots(domain);
     find_vertices(domain);
   }
@@ -42,10 +40,6 @@ class MixedHinges {
   [[nodiscard]] bool is_isometric(Index hinge) const { return isometric_[hinge]; }
   /// A hinge at which a path may bend at the vertex of weld w, or none.
   [[nodiscard]] Index bend_at(Index w) const { return bends_[w]; }
-  /// Over a line of edges into a solid a source is handed on together with how far along the line
-  /// it is seen. That is known when all labels there are; and a ring goes before what comes over
-  /// triangles between the same pieces.
-  [[nodiscard]] bool is_late(Index hinge, std::size_t from) const { return late_[hinge][from]; }
 
   /// The hinge of a member, and its side.
   [[nodiscard]] std::pair<Index, Index> place(Index member) const { return places_[member]; }
@@ -63,11 +57,10 @@ class MixedHinges {
   }
 
   [[nodiscard]] std::size_t bytes() const {
-    std::size_t sum = sizeof(*this) + chains_.bytes() + neighbours_.bytes() +
-                      isometric_.capacity() + late_.capacity() * sizeof(late_[0]) +
-                      (bends_.capacity() + at_vertices_.capacity()) * sizeof(Index) +
-                      beside_.capacity() * sizeof(beside_[0]) +
-                      places_.capacity() * sizeof(places_[0]);
+    std::size_t sum =
+        sizeof(*this) + chains_.bytes() + neighbours_.bytes() + isometric_.capacity() +
+        (bends_.capacity() + at_vertices_.capacity()) * sizeof(Index) +
+        beside_.capacity() * sizeof(beside_[0]) + places_.capacity() * sizeof(places_[0]);
     for (const Slots& own : slots_)
       sum += sizeof(own) + (own.begin.capacity() + own.slots.capacity()) * sizeof(Index);
     return sum;
@@ -112,17 +105,6 @@ class MixedHinges {
         if (found != at.end() && std::equal(key.begin(), key.begin() + 4, found->begin()))
           bends_[(*found)[4]] = n;
       }
-    }
-  }
-
-  void find_late(const Domain& domain) {
-    std::set<std::array<Index, 2>> lines;  // between which pieces there are edges
-    for (const auto& hinge : domain.hinges())
-      if (hinge.dimension == 1) lines.insert({hinge.piece[0], hinge.piece[1]});
-    for (const auto& hinge : domain.hinges()) {
-      auto& late = late_.emplace_back();
-      if (lines.count({hinge.piece[0], hinge.piece[1]}) > 0)
-        for (const std::size_t from : {0, 1}) late[from] = solid(domain, hinge.piece[1 - from]);
     }
   }
 
@@ -194,7 +176,6 @@ class MixedHinges {
   HingeChains<Real> chains_;
   HingeNeighbours<Real> neighbours_;
   std::vector<char> isometric_;                  // by hinge
-  std::vector<std::array<bool, 2>> late_;        // by hinge, from either side
   std::vector<Index> bends_;                     // by weld
   std::vector<std::pair<Index, Index>> places_;  // by member
   std::vector<std::pair<Index, Index>> beside_;  // by slot of a weld, a range of the next

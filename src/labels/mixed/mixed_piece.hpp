@@ -53,9 +53,8 @@ class MixedPiece {
 
   /// The caller's numbers in the piece.
   virtual void seed(const PointSource& source, Index number) = 0;
-  /// Until no nearer label than `horizon` waits or `budget` expansions are spent. Sources from
-  /// `first_front` on are labels that start on a hinge. Throws Cancelled.
-  virtual void run(Real horizon, std::size_t budget, Index first_front) = 0;
+  /// Until no nearer label than `horizon` waits or `budget` expansions are spent. Throws Cancelled.
+  virtual void run(Real horizon, std::size_t budget) = 0;
   /// No nearer label waits: +inf where none does.
   [[nodiscard]] virtual Real nearest() const = 0;
   /// Nothing waits in any piece: the horizon starts anew.
@@ -75,8 +74,7 @@ class MixedPiece {
   virtual Found at_vertex(Index vertex) = 0;
   virtual bool enter_vertex(Index vertex, Real distance, Index source, bool bends) = 0;
 
-  /// K = 1, 2. `distance` is that of a simplex's centre, +inf where unreached. `ring` is the
-  /// hinge's place among those of dimension 1 of this piece.
+  /// K = 1, 2. `distance` is that of a simplex's centre, +inf where unreached.
   virtual Real distance(Index) const = 0;
   /// The vertex at a simplex's corner.
   virtual Index vertex_of(Index simplex, std::size_t corner) const = 0;
@@ -88,17 +86,11 @@ class MixedPiece {
   /// sees it.
   /// Of an edge on a straight line of them, `line` is where that begins and ends: light into a
   /// surface bends there.
-  virtual bool enter(const Member&, int dimension, const PosedSource<Real>&, Index ring,
+  virtual bool enter(const Member&, int dimension, const PosedSource<Real>&,
                      const std::pair<Real, Real>& line) = 0;
   /// Any other front: a path crosses where it is shortest. A label that starts at the crossing
   /// gets the front's number as its source, and is told to `started`.
   virtual bool enter_front(const Member&, const HingeFront<Real>&, Point& started) = 0;
-  /// K = 1 into a solid: paths from one source may pass the hinge's line from x = low to high.
-  /// Gives the `ring` to enter with.
-  virtual Index open_ring(const Member&, Real, Real) { return none; }
-  /// Nothing was accepted with the ring opened last.
-  virtual void close_ring() {}
-
   /// A point posed on a hinge, and the point at a place of the hinge.
   virtual HingeEnd<Real> pose(const Member&, int, const Point&) const { return {}; }
   virtual Point place(const Member&, int, const HingePlace<Real>&) const { return {}; }

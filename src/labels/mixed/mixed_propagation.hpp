@@ -54,7 +54,6 @@ class MixedPropagation {
         hinges_(domain, pieces_),
         posed_(domain.members().size()),
         due_(slots(domain)),
-        late_(slots(domain)),
         bends_(slots(domain)),
         crossings_(domain, pieces_, hinges_.neighbours()),
         ran_(pieces_.size(), 0),
@@ -250,22 +249,22 @@ class MixedPropagation {
       ran_[p] = 1;
       const std::size_t own = pieces_[p]->statistics().expansions;
       constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-      pieces_[p]->run(horizon, share_[p] > most - own ? most : own + share_[p], crossings_.first());
+      pieces_[p]->run(horizon, share_[p] > most - own ? most : own + share_[p]);
     });
     spent_before_ = spent;
     if (running_ == none)
       reported_.count(expansions(), [&] { return progress(static_cast<double>(horizon)); });
   }
 
-  // When nothing waits: what looks at whole pieces, then lines, and bends at vertices last, since
-  // they serve what nothing else reaches. True if something waits then.
+  // When nothing waits: what looks at whole pieces, and bends at vertices last, since they serve
+  // what nothing else reaches. True if something waits then.
   bool look_again() {
     if (pace_ < infinity)
       for (const auto& piece : pieces_) piece->hold();
     each([&](Index p) {
       if (std::exchange(ran_[p], 0)) said_[p] = pieces_[p]->repair();
     });
-    return any_said() || carry_late() || bend();
+    return any_said() || bend();
   }
 
   std::size_t expansions() const {
@@ -315,12 +314,7 @@ class MixedPropagation {
         if (hinges_.bend_at(w) != none) bends_.add(slot);
         continue;
       }
-      const Index m = slot - 2 * static_cast<Index>(domain_.welds().size());
-      const auto [hinge, side] = hinges_.place(m);
-      if (hinges_.is_late(hinge, side))
-        late_.add(slot);
-      else
-        members_.push_back(slot);
+      members_.push_back(slot);
     }
     return carry(members_) || any;
   }
@@ -375,34 +369,23 @@ class MixedPropagation {
       const bool one = front.is_one_source(posed_[m]);
       posed_[m].source = root(posed_[m].source);
       // Virtual sources of a surface are where they seem to be for points of its plane alone: from
-      // its triangles paths bend on the face.
-      const bool leaves_plane = hinge.dimension == 2 && !piece.is_solid();
-      changed_.push_back({n, side, m, one && hinges_.is_isometric(n) && !leaves_plane});
+      // its triangles paths bend on the face. What comes into a solid bends on the hinge.
+      const bool as_it_is = one && hinges_.is_isometric(n) &&
+                            !pieces_[hinge.piece[1 - side]]->is_solid() &&
+                            (hinge.dimension == 1 || piece.is_solid());
+      changed_.push_back({n, side, m, as_it_is});
     }
     bool any = false;
-    // Over edges first: of equal paths, one with a ring serves more points than one that bends at
-    // the best point for a single centre.
-    std::stable_partition(changed_.begin(), changed_.end(), [&](const Change& change) {
-      return domain_.hinges()[change.hinge].dimension == 1;
-    });
     for (const auto& [n, side, m, as_it_is] : changed_) {
       const auto& hinge = domain_.hinges()[n];
       const Index to = hinge.piece[1 - side];
       if (as_it_is) {
-        Index ring = none;
-        if (hinges_.chains().at_solid(domain_, n, 1 - side)) {
-          const auto [low, high] = hinges_.chains().visible(domain_, n, side, posed_, m);
-          ring = pieces_[to]->open_ring(domain_.members()[hinge.begin[1 - side]], low, high);
-        }
-        bool entered = false;
         for (Index k = hinge.begin[1 - side]; k < hinge.end[1 - side]; ++k) {
           PosedSource<Real> posed = posed_[m];
           posed.sigma += gain_over(n, side, m, k);
-          entered |= pieces_[to]->enter(domain_.members()[k], hinge.dimension, posed, ring,
-                                        hinges_.chains().line(n));
+          any |= pieces_[to]->enter(domain_.members()[k], hinge.dimension, posed,
+                                    hinges_.chains().line(n));
         }
-        any |= entered;
-        if (ring != none && !entered) pieces_[to]->close_ring();
         continue;
       }
       for (Index k = hinge.begin[1 - side]; k < hinge.end[1 - side]; ++k) {
@@ -437,12 +420,6 @@ class MixedPropagation {
     return most;
   }
 
-  bool carry_late() {
-    list_.clear();
-    late_.drain(list_);
-    return carry(list_);
-  }
-
   // Over the vertices where paths may bend. True if something was accepted.
   bool bend() {
     list_.clear();
@@ -466,7 +443,7 @@ class MixedPropagation {
   std::vector<Change> changed_;
   std::vector<PosedSource<Real>> posed_;  // by member: what it offered last
   // Where something was expanded: slots to look at, and what waits until nothing else does.
-  SlotSet due_, late_, bends_;
+  SlotSet due_, bends_;
   std::vector<Index> list_, members_;
   HingeCrossings<Real> crossings_;
   std::vector<Index> turn_;         // pieces at work

@@ -5,27 +5,29 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numeric>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "labels/mixed/mixed_front.hpp"
 #include "labels/mixed/mixed_piece.hpp"
+#include "labels/solid/plain_solid_rule.hpp"
 #include "labels/solid/solid_propagation.hpp"
 #include "labels/solid/solid_read_out.hpp"
-#include "labels/solid/solid_rule.hpp"
+#include "strings/solid_strings.hpp"
 
 namespace plexway {
 
-/// A solid in a mixed domain.
+/// A solid in a mixed domain where strings do not go, by the plain step.
 template <class Real>
 class MixedSolid final : public MixedPiece<Real> {
  public:
   using typename MixedPiece<Real>::Member;
   using typename MixedPiece<Real>::Found;
   using Point = Vector3<Real>;
-  using Wave = MixedFront<Real, SolidLabel<Real>>;
-  using Rule = SolidRule<Real, Wave>;
-  using Label = SolidLabel<Real>;
+  using Label = PlainSolidLabel<Real>;
+  using Wave = MixedFront<Real, Label>;
+  using Rule = PlainSolidRule<Real, Wave>;
 
   MixedSolid(const TetMesh<Real>& mesh, WorkspaceState<Real>& workspace,
              const PropagateOptions& options, Real step)
@@ -33,26 +35,35 @@ class MixedSolid final : public MixedPiece<Real> {
         workspace_(prepare(mesh, workspace)),
         options_(options),
         unit_(static_cast<Real>(mesh.unit())),
-        rings_(mesh.reflex_edges().begin(), mesh.reflex_edges().end()),
-        wave_({workspace.marks, workspace.solids.reserve(mesh.tet_count() + 1),
+        wave_({workspace.marks, workspace.plain_solids.reserve(mesh.tet_count() + 1),
                DualQueue<Real>(workspace.front, step), workspace.source.data(), mesh.tet_count(),
                mesh.unit(), options_},
               this->expanded_),
         propagation_(mesh, Rule(mesh, wave_), wave_, options_),
         rule_(propagation_.rule()) {
-    find_torn();
+    if (!sees_all()) space_ = space_of(mesh);
   }
 
-  void seed(const PointSource& source, Index number) override { propagation_.seed(source, number); }
-  void run(Real horizon, std::size_t budget, Index first_front) override {
+  void seed(const PointSource& source, Index number) override {
+    propagation_.seed(source, number);
+    Index t = none;
+    if (source.vertex == none)
+      t = mesh_.inside_tet(source.simplex).first;
+    else if (const auto corners = mesh_.corners_at(mesh_.inside_vertex(source.vertex));
+             !corners.empty())
+      t = corners[0] / 4;
+    if (t == none) return;
+    const Point at = 1 / unit_ * place(source);
+    starts_.push_back({number, at, static_cast<Real>(source.offset) / unit_, beside(at, t)});
+  }
+  void run(Real horizon, std::size_t budget) override {
     options_.max_expansions = budget;
     wave_.withdraw_all_but(budget - wave_.expansions());
     wave_.queue().set_horizon(horizon / unit_);
     for (std::size_t before = this->expanded_.size();; before = this->expanded_.size()) {
       propagation_.spread(propagation_.last_resort(repairs_));
       for (std::size_t i = before; i < this->expanded_.size(); ++i)
-        if (wave_.source(this->expanded_[i]) >= first_front)
-          on_hinges_.push_back({this->expanded_[i], 0});
+        started_.push_back({this->expanded_[i], 0});
       if (wave_.out_of_budget() || !offer_around(horizon / unit_)) return;
     }
   }
@@ -99,12 +110,21 @@ class MixedSolid final : public MixedPiece<Real> {
             dot(frame.to[1], frame.w) * unit_};
   }
 
-  PosedSource<Real> leave(const Member& m, int dimension,
-                          const HingePlace<Real>& b) const override {
-    const Frame frame(*this, m, dimension);
-    const auto sight = rule_.reached_from(m.simplex, frame.place(b));
-    const HingeEnd<Real> end = frame.pose(sight.eye, unit_);
-    return {end.x, end.y, end.h, sight.sigma * unit_, wave_.source(m.simplex)};
+  PosedSource<Real> leave(const Member& m, int dimension, const HingePlace<Real>&) const override {
+    const Label& label = wave_.label(m.simplex);
+    const HingeShape<Real> shape = this->shape(m, dimension);
+    const auto square = [&](std::size_t i) {
+      return label.distance2[m.corner[i]] * (unit_ * unit_);
+    };
+    const Real s = square(0);
+    PosedSource<Real> eye = {0, 0, 0, label.sigma * unit_, wave_.source(m.simplex)};
+    if (shape.length > 0)
+      eye.x = (s - square(1) + shape.length * shape.length) / (2 * shape.length);
+    if (dimension == 2 && shape.y > 0)
+      eye.y = (s - square(2) + shape.x * shape.x + shape.y * shape.y - 2 * shape.x * eye.x) /
+              (2 * shape.y);
+    eye.h = std::sqrt(std::max(s - eye.x * eye.x - eye.y * eye.y, Real(0)));
+    return eye;
   }
 
   // The label starts at the crossing that is the best for the centre.
@@ -119,7 +139,9 @@ class MixedSolid final : public MixedPiece<Real> {
     weight[m.corner[0]] = 1 - weight[m.corner[1]] - path.crossing[1];
     const std::size_t before = wave_.updates();
     rule_.seed_inside(m.simplex, weight, path.before / unit_, front.number);
-    started = wave_.label(m.simplex).source;
+    started = frame.place(path.crossing);
+    if (wave_.updates() != before)
+      starts_.push_back({front.number, started, path.before / unit_, beside(started, m.simplex)});
     return wave_.updates() != before;
   }
 
@@ -145,12 +167,15 @@ class MixedSolid final : public MixedPiece<Real> {
 
   bool sees(const Member& m, int dimension, const HingePlace<Real>& b,
             Index vertex) const override {
-    const auto around = mesh_.corners_at(vertex);
-    const Point from = place(m, dimension, b);
-    return std::any_of(around.begin(), around.end(),
-                       [&](Index c) { return rule_.sees(m.simplex, from, c / 4, c % 4); });
+    if (!space_) return true;
+    const strings::Point from = beside(place(m, dimension, b), m.simplex);
+    return !space_->sight().is_blocked(from, space_->beside(vertex, from, from));
   }
-  bool sees_all() const override { return !rule_.drops() && mesh_.summary().components == 1; }
+  bool sees_all() const override {
+    return mesh_.reflex_edges().empty() && mesh_.pinched().empty() &&
+           mesh_.pinched_edges().empty() && mesh_.summary().degenerate_tets == 0 &&
+           mesh_.summary().components == 1;
+  }
 
   bool is_solid() const override { return true; }
   void vertices_around(Index vertex, std::vector<Index>& around) const override {
@@ -164,54 +189,24 @@ class MixedSolid final : public MixedPiece<Real> {
 
   Index crossing_seen(Index vertex,
                       const std::function<const Point*(Index)>& starts) const override {
-    const Point& q = mesh_.points()[vertex];
     Index nearest = none;
     Real least = infinity;
     for (const Index c : mesh_.corners_at(vertex)) {
       if (!wave_.reached(c / 4)) continue;
       const Index number = wave_.source(c / 4);
-      const Point* start = starts(number);
-      if (!start) continue;
-      const Real d = wave_.label(c / 4).sigma + norm(q - *start);
-      if (!(d < least) || !(norm(rule_.seen_from(c / 4, q).eye - *start) <= Real(1e-4))) continue;
+      if (!starts(number)) continue;
+      const Real d = rule_.corner_distance(c / 4, c % 4);
+      if (!(d < least)) continue;
       least = d;
       nearest = number;
     }
     return nearest;
   }
 
-  bool enter(const Member& m, int dimension, const PosedSource<Real>& from, Index ring,
-             const std::pair<Real, Real>&) override {
-    const Frame frame(*this, m, dimension);
-    const Point eye = frame.origin + (from.x / unit_) * frame.u + (from.y / unit_) * frame.w +
-                      (from.h / unit_) * frame.out;
-    std::size_t face = 0;  // one that contains the hinge
-    for (const auto is_corner =
-             [&](std::size_t i) {
-               for (int k = 0; k <= dimension; ++k)
-                 if (m.corner[static_cast<std::size_t>(k)] == i) return true;
-               return false;
-             };
-         is_corner(face);)
-      ++face;
-    const Real sigma = from.sigma / unit_;
-    if (dimension == 2) return rule_.enter_face(m.simplex, face, eye, sigma, from.source);
-    return rule_.enter_edge(m.simplex, face, ring, eye, sigma, from.source);
+  // What comes from other pieces bends on the hinge.
+  bool enter(const Member&, int, const PosedSource<Real>&, const std::pair<Real, Real>&) override {
+    return false;
   }
-
-  Index open_ring(const Member& m, Real low, Real high) override {
-    const Frame frame(*this, m, 1);
-    ReflexEdge<Real> ring = {};
-    ring.end[0] = frame.origin + (low / unit_) * frame.u;
-    ring.end[1] = frame.origin + (high / unit_) * frame.u;
-    ring.direction = frame.u;
-    ring.extent = (high - low) / unit_;
-    rings_.push_back(ring);
-    rule_.set_rings(rings_);
-    return static_cast<Index>(rings_.size() - 1);
-  }
-
-  void close_ring() override { rings_.pop_back(); }
 
   void read_out(std::span<Real> distance, std::span<Index> label) override {
     plexway::read_out<Real, true>(mesh_, rule_, wave_, workspace_);
@@ -237,40 +232,59 @@ class MixedSolid final : public MixedPiece<Real> {
     return workspace;
   }
 
-  // Places of several vertices, as on the faces of a crack or where holes touch. Where every point
-  // sees every other there are none.
-  void find_torn() {
-    if (sees_all()) return;
-    const auto points = mesh_.points();
-    std::vector<Index> order(points.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto key = [&](Index v) { return std::array{points[v].x, points[v].y, points[v].z}; };
-    std::sort(order.begin(), order.end(), [&](Index v, Index w) { return key(v) < key(w); });
-    for (std::size_t i = 1; i < order.size(); ++i) {
-      const Index v = order[i - 1], w = order[i];
-      if (key(v) != key(w)) continue;
-      torn_.resize(points.size(), 0);
-      torn_[v] = torn_[w] = 1;
-    }
-    rule_.tell_sides(torn_);
-  }
-  // Labels that start on hinges are offered all around, as far as the horizon. True if some was
-  // accepted.
+  // Labels are offered all around straight from where they start, as far as the horizon. True if
+  // some was accepted.
   bool offer_around(Real horizon) {
-    if (on_hinges_.empty()) return false;
+    if (started_.empty()) return false;
     const std::size_t before = wave_.updates();
-    std::erase_if(on_hinges_, [&](OnHinge& label) {
-      if (label.next < horizon)
-        label.next = rule_.offer_around(label.tet, this->crossing_gain, horizon);
+    std::erase_if(started_, [&](Started& label) {
+      if (label.next < horizon) label.next = offer_around(label.tet, horizon);
       return !(label.next < infinity);
     });
     return wave_.updates() != before;
   }
-
-  // The hinge's frame in space; `out` points away from the tetrahedron.
+  // To its neighbours, straight from where it starts, even where the line misses the face between:
+  // of many starts of nearly the same distance each tetrahedron keeps one, and the strip that would
+  // bring another one may be taken. Offers at the horizon or beyond are not made: gives the nearest
+  // such, or +inf.
+  Real offer_around(Index t, Real horizon) {
+    const Index number = wave_.source(t);
+    const auto start =
+        std::lower_bound(starts_.begin(), starts_.end(), number,
+                         [](const Start& s, Index of_front) { return s.number < of_front; });
+    if (start == starts_.end() || start->number != number) return infinity;
+    Real left = infinity;
+    for (Index i = 0; i < 4; ++i) {
+      const Index across = mesh_.tets()[t].across[i], u = across >> TetAcross::tet_shift;
+      if (u == mesh_.tet_count()) continue;
+      Label label;
+      label.sigma = start->sigma;
+      for (std::size_t j = 0; j < 4; ++j) {
+        const Point off = mesh_.points()[mesh_.tets()[u].corner[j]] - start->at;
+        label.distance2[j] = dot(off, off);
+      }
+      label.centre = rule_.centre_distance(u, label);
+      if (!(label.centre < rule_.distance_or_inf(u) * (1 - this->crossing_gain))) continue;
+      if (!(label.centre < horizon))
+        left = std::min(left, label.centre);
+      else if (!space_ || !space_->sight().is_blocked(start->beside, middle_of(u)))
+        wave_.accept(u, across & TetAcross::face_mask, label, label.centre, number);
+    }
+    return left;
+  }
+  [[nodiscard]] strings::Point middle_of(Index t) const {
+    const Point& p = mesh_.tets()[t].centre;
+    return {double(p.x), double(p.y), double(p.z)};
+  }
+  // A little off a point of tetrahedron t, into it.
+  [[nodiscard]] strings::Point beside(const Point& p, Index t) const {
+    const strings::Point at = {double(p.x), double(p.y), double(p.z)};
+    return at + 1e-6 * (middle_of(t) - at);
+  }
+  // The hinge's frame in space.
   struct Frame {
     Point origin, to[2] = {{0, 0, 0}, {0, 0, 0}};  // and from there to vertices 1 and 2
-    Point u = {0, 0, 0}, w = {0, 0, 0}, out = {0, 0, 0};
+    Point u = {0, 0, 0}, w = {0, 0, 0};
     [[nodiscard]] Point place(const HingePlace<Real>& b) const {
       return origin + b[0] * to[0] + b[1] * to[1];
     }
@@ -290,14 +304,9 @@ class MixedSolid final : public MixedPiece<Real> {
       origin = at(0);
       to[0] = at(1) - origin;
       u = unit(to[0]);
-      const Point in = t.centre - origin;
       if (dimension == 2) {
         to[1] = at(2) - origin;
         w = unit(to[1] - dot(to[1], u) * u);
-        out = cross(u, w);
-        if (dot(out, in) > 0) out = Real(-1) * out;
-      } else {
-        out = Real(-1) * unit(in - dot(in, u) * u);
       }
     }
   };
@@ -306,18 +315,24 @@ class MixedSolid final : public MixedPiece<Real> {
   WorkspaceState<Real>& workspace_;
   PropagateOptions options_;
   Real unit_;
-  std::vector<ReflexEdge<Real>> rings_;
   Wave wave_;
   SolidPropagation<Real, Rule, Wave> propagation_;
   Rule& rule_;
   int repairs_ = 0;
+  std::shared_ptr<const strings::SolidSpace> space_;  // where not every point sees every other
   // Expanded labels from there that have more to offer, the nearest at `next`.
-  struct OnHinge {
+  struct Started {
     Index tet;
     Real next;
   };
-  std::vector<OnHinge> on_hinges_;
-  std::vector<char> torn_;  // by vertex, if any
+  std::vector<Started> started_;
+  struct Start {  // of labels: a source, or where a front crossed a hinge
+    Index number;
+    Point at;
+    Real sigma;
+    strings::Point beside;
+  };
+  std::vector<Start> starts_;  // ascending
 };
 
 }  // namespace plexway

@@ -38,7 +38,7 @@ class MixedSurface final : public MixedPiece<Real> {
         propagation_(mesh, workspace, rule_, wave_, options_) {}
 
   void seed(const PointSource& source, Index number) override { propagation_.seed(source, number); }
-  void run(Real horizon, std::size_t budget, Index) override {
+  void run(Real horizon, std::size_t budget) override {
     options_.max_expansions = budget;
     wave_.withdraw_all_but(budget - wave_.expansions());
     wave_.queue().set_horizon(horizon / unit_);
@@ -104,7 +104,7 @@ class MixedSurface final : public MixedPiece<Real> {
     return {x * unit_, y * unit_, 0, sigma, wave_.source(m.simplex)};
   }
 
-  bool enter(const Member& m, int dimension, const PosedSource<Real>& from, Index,
+  bool enter(const Member& m, int dimension, const PosedSource<Real>& from,
              const std::pair<Real, Real>& line) override {
     const Real x = from.x / unit_, y = from.y / unit_, h = from.h / unit_;
     const Real sigma = from.sigma / unit_;

@@ -31,7 +31,7 @@ class MixedWire final : public MixedPiece<Real> {
     propagation_.seed(source, number, waiting_);
   }
 
-  void run(Real horizon, std::size_t budget, Index) override {
+  void run(Real horizon, std::size_t budget) override {
     options_.max_expansions = budget;
     propagation_.withdraw_all_but(budget - propagation_.statistics().expansions);
     waiting_.set_horizon(horizon / unit_);
@@ -58,8 +58,7 @@ class MixedWire final : public MixedPiece<Real> {
   Index vertex_of(Index, std::size_t) const override { return none; }
   HingeShape<Real> shape(const Member&, int) const override { return {}; }
   PosedSource<Real> leave(const Member&, int, const HingePlace<Real>&) const override { return {}; }
-  bool enter(const Member&, int, const PosedSource<Real>&, Index,
-             const std::pair<Real, Real>&) override {
+  bool enter(const Member&, int, const PosedSource<Real>&, const std::pair<Real, Real>&) override {
     return false;
   }
   bool enter_front(const Member&, const HingeFront<Real>&, Vector3<Real>&) override {
