@@ -24,11 +24,11 @@ void FlatStrings::solve(const SimplicialComplex<Real, 4>& complex,
   for (const PointSource& s : sources)
     roots.push_back(
         {complex.inside_vertex(s.vertex), s.offset / unit, static_cast<Index>(roots.size())});
-  field.complete =
-      solver_->solve(roots, options.radius / unit, options.max_expansions,
-                     [&](std::size_t expansions, double distance) {
-                       strings::report(options, expansions, complex.simplex_count(), distance * unit);
-                     });
+  field.complete = solver_->solve(roots, options.radius / unit, options.max_expansions,
+                                  [&](std::size_t expansions, double distance) {
+                                    strings::report(options, expansions, complex.simplex_count(),
+                                                    distance * unit);
+                                  });
   strings::to_field(complex, *solver_, sources, options.radius, field);
   field.statistics.expansions = solver_->expansions();
   field.statistics.updates = solver_->labels();

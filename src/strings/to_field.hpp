@@ -15,7 +15,7 @@ namespace plexway::strings {
 
 /// Reports how far strings are, in a domain of so many simplices; throws Cancelled.
 inline void report(const PropagateOptions& options, std::size_t expansions, std::size_t simplices,
-                 double distance) {
+                   double distance) {
   if (options.progress &&
       !options.progress({expansions, std::min(expansions, simplices), simplices, distance}))
     throw Cancelled("cancelled by the progress callback");

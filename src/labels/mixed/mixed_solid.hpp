@@ -41,7 +41,7 @@ class MixedSolid final : public MixedPiece<Real> {
               this->expanded_),
         propagation_(mesh, Rule(mesh, wave_), wave_, options_),
         rule_(propagation_.rule()) {
-    if (!sees_all()) space_ = space_of(mesh);
+    if (!sees_all()) space_ = space_of(mesh)->media()[0].room;
   }
 
   void seed(const PointSource& source, Index number) override {
