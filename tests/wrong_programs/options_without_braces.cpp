@@ -3,6 +3,4 @@
 
 using namespace plexway;
 
-auto field(const TriangleMesh<double>& mesh) {
-  return solve(Serial{}, mesh, 0, Accuracy::exact());
-}
+auto field(const TriangleMesh<double>& mesh) { return solve(Serial{}, mesh, 0, Accuracy::exact()); }
