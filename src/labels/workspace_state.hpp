@@ -14,7 +14,6 @@
 #include "labels/plain_label.hpp"
 #include "labels/simplicial/simplex_label.hpp"
 #include "labels/solid/plain_solid_label.hpp"
-#include "labels/solid/solid_label.hpp"
 #include "labels/surface/lowering_rooms.hpp"
 #include "labels/surface/saddle_label.hpp"
 #include "windows/window_memory.hpp"
@@ -38,7 +37,6 @@ struct WorkspaceState {
   VisitMarks marks;
   LabelStorage<SaddleLabel<Real>> saddles;           ///< Visibility::saddles
   LabelStorage<PlainLabel<Real>> plain;              ///< the other policies
-  LabelStorage<SolidLabel<Real>> solids;             ///< in solids: Visibility::saddles
   LabelStorage<PlainSolidLabel<Real>> plain_solids;  ///< in solids: the other policies
   SimplexLabels<Real> simplex;                       ///< SimplicialComplex
   std::vector<Index> source;   ///< nearest source a simplex; empty for one source
@@ -77,7 +75,6 @@ struct WorkspaceState {
     for (const WorkspaceState& part : parts) of_parts += part.bytes();
     return of_parts + of(offered) + sizeof(*this) + marks.bytes() +
            saddles.count * sizeof(SaddleLabel<Real>) + plain.count * sizeof(PlainLabel<Real>) +
-           solids.count * sizeof(SolidLabel<Real>) +
            plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() +
            (flat ? flat->workspace.bytes() + of(flat->field.distance) : 0) + of(source) +
            windows.bytes() + of(vertex) + of(vertex_source) + of(corners) +
