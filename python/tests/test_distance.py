@@ -69,7 +69,7 @@ def test_accuracy():
     for labels in ({"visibility": "centroid"}, {"visibility": "upper_bound"}):
         known = sheet.distance(at, **labels)
         assert np.array_equal(known, sheet.distance(at, accuracy="fast", **labels))
-        with pytest.raises(px.UsageError, match="windows"):
+        with pytest.raises(px.UsageError, match="visibility"):
             sheet.distance(at, accuracy="accurate", **labels)
     d, error = sheet.estimate(at, accuracy="exact")
     assert np.all(error == 0) and np.array_equal(d, sheet.distance(at, accuracy="exact"))

@@ -1,7 +1,5 @@
 #include "strings/flat_strings.hpp"
 
-#include <vector>
-
 #include "strings/to_field.hpp"
 
 namespace plexway {
@@ -20,11 +18,11 @@ void FlatStrings::solve(const SimplicialComplex<Real, 4>& complex,
     solver_ = std::make_unique<strings::FlatSolver<4>>(*space_);
   }
   const double unit = complex.unit();
-  std::vector<strings::FlatRoot> roots;
+  roots_.clear();
   for (const PointSource& s : sources)
-    roots.push_back(
-        {complex.inside_vertex(s.vertex), s.offset / unit, static_cast<Index>(roots.size())});
-  field.complete = solver_->solve(roots, options.radius / unit, options.max_expansions,
+    roots_.push_back(
+        {complex.inside_vertex(s.vertex), s.offset / unit, static_cast<Index>(roots_.size())});
+  field.complete = solver_->solve(roots_, options.radius / unit, options.max_expansions,
                                   [&](std::size_t expansions, double distance) {
                                     strings::report(options, expansions, complex.simplex_count(),
                                                     distance * unit);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include <plexway/simplicial/simplicial_complex.hpp>
 #include <plexway/solve/distance_field.hpp>
@@ -24,12 +25,14 @@ class FlatStrings {
              const PropagateOptions& options, DistanceField<Real>& field);
 
   [[nodiscard]] std::size_t bytes() const {
-    return sizeof(*this) + (solver_ ? solver_->bytes() : 0);
+    return sizeof(*this) + (solver_ ? solver_->bytes() : 0) +
+           roots_.capacity() * sizeof(strings::FlatRoot);
   }
 
  private:
   std::shared_ptr<const strings::FlatSpace<4>> space_;  // the complex keeps it
   std::unique_ptr<strings::FlatSolver<4>> solver_;
+  std::vector<strings::FlatRoot> roots_;
 };
 
 }  // namespace plexway

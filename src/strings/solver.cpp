@@ -314,6 +314,7 @@ void Solver::attach(const Point& at, std::span<const Inside> inside,
                     std::span<const Index> sources) {
   const auto number = static_cast<Index>(space_->nodes());
   attached_ = at;
+  base_node_ = none;  // may be the one that was attached before
   nodes_[number] = {};
   if (!plain_) best_[space_->points()] = unreached;
   Index medium = inside.empty() ? 0 : inside[0].medium;
