@@ -80,8 +80,8 @@ class FlatSolver {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr double rounding = 1e-9;
-  static constexpr double behind = .5;  // a second label, at most so many edges
-  static constexpr std::size_t most_bends = Taut<N>::most - 2;
+  static constexpr double behind = .5;          // a second label, at most so many edges
+  static constexpr std::size_t most_bends = 6;  // more cost far more and gain next to nothing
 
   struct Offer {
     double distance;
@@ -104,12 +104,12 @@ class FlatSolver {
   };
   /// A string on its way to a new end.
   struct Attempt {
-    Index root;
-    Point from, to;
+    Index root = none;
+    Point from{}, to{};
     std::vector<Bend> bends;
     std::vector<Leg> legs;
-    double length;
-    bool touched;  // something was put in
+    double length = 0;
+    bool touched = false;  // something was put in
     [[nodiscard]] const Point& corner(std::size_t n) const {
       return n == 0 ? from : n > bends.size() ? to : bends[n - 1].point;
     }
@@ -308,7 +308,8 @@ class FlatSolver {
       while (end < a.bends.size() && is_there(end)) ++end;
       const Index own = end == begin + 1 ? a.bends[begin].face : none;
       const Point beside = end_of_leg(a, begin + 1, begin, to);
-      const double least = outcome == Outcome::free ? a.length * (1 - 1e-12) : infinity;
+      constexpr double gain = 1e-6;  // less is only pulled better
+      const double least = outcome == Outcome::free ? a.length * (1 - gain) : infinity;
       bool better = false;
       const auto try_over = [&](Index face) {
         other_ = a;
