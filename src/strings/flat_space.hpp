@@ -57,7 +57,8 @@ class FlatSpace {
     const auto [begin, end] =
         std::equal_range(gates_.begin(), gates_.end(), std::pair<Index, Index>{vertex, 0},
                          [](const auto& a, const auto& b) { return a.first < b.first; });
-    return {begin, end};
+    return std::span(gates_).subspan(static_cast<std::size_t>(begin - gates_.begin()),
+                                     static_cast<std::size_t>(end - begin));
   }
 
   /// Where a leg from or to a vertex ends: a little inside the domain, for one `toward` a point. On
@@ -84,7 +85,9 @@ class FlatSpace {
                                             [&](const Wedge& w) { return w.face < number; });
     const auto end = std::partition_point(begin, wedges_.end(),
                                           [&](const Wedge& w) { return w.face == number; });
-    return into<2>(std::span<const Wedge>(begin, end), p, toward, free);
+    const std::span<const Wedge> there = std::span(wedges_).subspan(
+        static_cast<std::size_t>(begin - wedges_.begin()), static_cast<std::size_t>(end - begin));
+    return into<2>(there, p, toward, free);
   }
   /// Is a bend at the rim of its face?
   [[nodiscard]] bool is_at_rim(Index number, const Along& at) const {
