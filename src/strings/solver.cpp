@@ -65,17 +65,17 @@ bool Solver::add(std::span<const Source> sources, const Limits& limits) {
   return true;
 }
 
-// What no string came to, though one came to a neighbour: along the edge. False if there is
-// nothing.
+// No point is farther than a neighbour and the edge between: where strings came to no end, as where
+// a solid only touches itself, along the edge. False if there is nothing.
 bool Solver::go_by_edges(std::size_t first) {
-  if (reached_.size() == space_->nodes()) return false;
   for (std::size_t n = first; n < reached_.size(); ++n) {
     const Index node = reached_[n];
     const Label label = nodes_[node].best();
     for (const Index other : space_->nodes_at(point_of(node)))
       for (const Index w : space_->neighbours(other)) {
         const Index to = space_->media()[medium_of(other)].first_node + w;
-        if (distance(point_of(to)) < unreached) continue;
+        const double length = label.distance + slowness(medium_of(to)) * norm(at(to) - at(node));
+        if (!(length < distance(point_of(to)) * (1 - rounding))) continue;
         from_ = node;
         go_by_corner(node, label, to);
         release(attempt_, attempt_.held);
