@@ -43,16 +43,20 @@ void Solver::clear() {
 }
 
 bool Solver::add(std::span<const Source> sources, const Limits& limits) {
-  const std::size_t before = counts_.expansions, first = sources_.size(), old = reached_.size();
+  const std::size_t before = counts_.expansions, first = sources_.size();
   for (const Source& s : sources) sources_.push_back({s.at, s.offset});
   queue_.clear();
   base_node_ = none;
   for (std::size_t n = 0; n < sources.size(); ++n) seed(static_cast<Index>(first + n), sources[n]);
-  while (!queue_.empty() || go_by_edges(old)) {
+  left_.clear();
+  while (!queue_.empty() || go_by_edges()) {
     std::pop_heap(queue_.begin(), queue_.end());
     const Offer next = queue_.back();
     queue_.pop_back();
-    if (next.distance > limits.radius) break;
+    if (next.distance > limits.radius) {
+      queue_.clear();
+      continue;
+    }
     const Label* found = nodes_[next.node].find(next.chain, next.distance);
     if (found == nullptr) continue;
     if (!plain_ && next.distance > best_[point_of(next.node)] + reach_[next.node]) continue;
@@ -65,24 +69,20 @@ bool Solver::add(std::span<const Source> sources, const Limits& limits) {
   return true;
 }
 
-// No point is farther than a neighbour and the edge between: where strings came to no end, as where
-// a solid only touches itself, along the edge. False if there is nothing.
-bool Solver::go_by_edges(std::size_t first) {
-  for (std::size_t n = first; n < reached_.size(); ++n) {
-    const Index node = reached_[n];
+// Edges that are shorter than what was found past them, as where a solid only touches itself or a
+// string came to no end: along them as they are, for an edge is in the domain, whatever is around
+// it. False if there is none.
+bool Solver::go_by_edges() {
+  for (const auto& [node, to] : left_) {
     const Label label = nodes_[node].best();
-    for (const Index other : space_->nodes_at(point_of(node)))
-      for (const Index w : space_->neighbours(other)) {
-        const Index to = space_->media()[medium_of(other)].first_node + w;
-        const double length = label.distance + slowness(medium_of(to)) * norm(at(to) - at(node));
-        if (!(length < distance(point_of(to)) * (1 - rounding))) continue;
-        from_ = node;
-        go_by_corner(node, label, to);
-        release(attempt_, attempt_.held);
-        puller_.pull(attempt_.string);
-        accept(attempt_, to);
-      }
+    if (!is_shorter(node, label, to)) continue;
+    from_ = node;
+    go_by_corner(node, label, to);
+    release(attempt_, attempt_.held);
+    puller_.pull(attempt_.string);
+    accept(attempt_, to);
   }
+  left_.clear();
   return !queue_.empty();
 }
 
@@ -130,6 +130,7 @@ void Solver::expand(Index node, const Label& label) {
     const Outcome outcome = offer(node, label, first + w, none);
     if (outcome != Outcome::longer)
       offer_edge(node, label, first + w, outcome == Outcome::free ? length(attempt_) : unreached);
+    if (is_shorter(node, label, first + w)) left_.emplace_back(node, first + w);
   }
   if (plain_) return;
   for (const Index other : space_->nodes_at(point_of(node))) {
@@ -156,6 +157,7 @@ void Solver::offer_through(Index node, const Label& label, Index to) {
     if (offer(node, label, to, door) == Outcome::free) found = std::min(found, length(attempt_));
   }
   offer_edge(node, label, to, found);
+  if (is_shorter(node, label, to)) left_.emplace_back(node, to);
 }
 
 // Along the edge, if that is shorter than what was found: from the point itself, or over a row.
@@ -166,8 +168,8 @@ void Solver::offer_edge(Index node, const Label& label, Index to, double found) 
   // In its own medium it may turn about a bend on the way and be shorter.
   const auto& own = space_->media()[medium_of(node)];
   const bool may_gain = medium_of(node) == medium_of(to) && own.room && !own.room->places().empty();
-  if (may_gain ||
-      (length < limit(to, {0, 0, 0}) && length < distance(point_of(to)) * (1 - rounding)))
+  const bool shorter = length < distance(point_of(to)) * (1 - rounding);
+  if (may_gain || (shorter && length < limit(to, {0, 0, 0})))
     if (attempt_corner(node, label, to) == Outcome::free) accept(attempt_, to);
 }
 
@@ -397,7 +399,7 @@ Solver::Path Solver::path(Index point) {
 std::size_t Solver::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return chains_.bytes() + of(hints_) + of(nodes_) + of(best_) + of(reach_) + of(reached_) +
-         of(queue_) + of(sources_) + of(roots_);
+         of(queue_) + of(left_) + of(sources_) + of(roots_);
 }
 
 }  // namespace plexway::strings

@@ -134,10 +134,10 @@ class Solver {
   using Spot = std::array<double, 2>;
 
   void seed(Index number, const Source& source);
-  bool go_by_edges(std::size_t first);
   void expand(Index node, const Label& label);
   void offer_through(Index node, const Label& label, Index to);
   void offer_edge(Index node, const Label& label, Index to, double found);
+  bool go_by_edges();
   void prepare(Index node, const Label& label);
   Outcome offer(Index from, const Label& label, Index to, Index door);
   [[nodiscard]] double bound(Index from, const Label& label, Index to, Index door) const;
@@ -201,6 +201,10 @@ class Solver {
   [[nodiscard]] double direct(Index from, const Label& label, Index to) const {
     return label.distance + slowness(medium_of(to)) * norm(at(to) - at(from));
   }
+  /// Is the edge shorter than what was found?
+  [[nodiscard]] bool is_shorter(Index from, const Label& label, Index to) const {
+    return direct(from, label, to) < distance(point_of(to)) * (1 - rounding);
+  }
   [[nodiscard]] static Point last_leg(const Attempt& a) {
     return a.string.direction(a.string.bends());
   }
@@ -228,9 +232,10 @@ class Solver {
   Chains chains_;
   std::vector<Spot> hints_;  // of a chain: where its last place was bent at last
   std::vector<VertexLabels> nodes_;
-  std::vector<double> best_;    // of points, unless they are the nodes
-  std::vector<double> reach_;   // of nodes, likewise: the time of their longest edge
-  std::vector<Index> reached_;  // nodes
+  std::vector<double> best_;                   // of points, unless they are the nodes
+  std::vector<double> reach_;                  // of nodes, likewise: the time of their longest edge
+  std::vector<Index> reached_;                 // nodes
+  std::vector<std::pair<Index, Index>> left_;  // edges for the end
   std::vector<Offer> queue_;
   std::unordered_map<Index, Place> corners_;
   Puller puller_;
