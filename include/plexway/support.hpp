@@ -154,45 +154,67 @@ template <ExecutorType E, DomainType D>
           accuracy};
 }
 
-/// What is done on a domain besides solving. `X(name, what it is)`.
-#define PLEXWAY_PURPOSES(X)                                                            \
-  X(paths, "PathField::trace")                                                         \
-  X(read_out, "PathField::at by other levels than ReadOut::linear")                    \
-  X(directions, "PathField::gradient")                                                 \
-  X(simplex_labels, "PathField::simplex_labels")                                       \
-  X(searches, "BoundedSearch and PathSearch")                                          \
-  X(samples, "farthest_points, poisson_disks, centroidal_voronoi and distance_matrix") \
-  X(isolines, "isolines of a field (shape/isolines.hpp)")                              \
-  X(arcs, "isolines as arcs, and fine_field (shape/isolines.hpp)")                     \
-  X(isosurfaces, "isosurfaces of a field (shape/isolines.hpp)")                        \
-  X(pictures, "ShapeScene, and pages to turn")                                         \
-  X(masks, "BuildOptions::mask")                                                       \
-  X(metrics, "AnyShape::measure")                                                      \
-  X(tensors, "AnyShape::measure by tensors")                                           \
-  X(regions, "AnyShape::regions")                                                      \
-  X(triangulations, "other triangles than the shape's, BuildOptions::triangulation")   \
-  X(kept_builds, "AnyDomain::keep")                                                    \
-  X(parts, "fields in parts, .pvtu")                                                   \
-  X(volumes, "fields in a .vdb")                                                       \
-  X(conversions, "'plexway convert'")                                                  \
-  X(lines, "AnyShape::joined")                                                         \
-  X(boundaries, "AnyShape::boundary")                                                  \
-  X(margins, "TraceOptions::margin")                                                   \
-  X(duals, "the dual triangulation of cells, 'plexway cvt --dual'")                    \
-  X(error_classes, "errors by place and shape, 'plexway bench --anatomy'")             \
-  X(rows, "all_pairs and near_pairs (shape/pairs.hpp)")                                \
-  X(ranks, "OpenMP::ranks")                                                            \
-  X(in_parts, "SurfaceParts, 'plexway-mpi distance --in-parts'")                       \
-  X(pieces, "MixedComplex::add")                                                       \
-  X(places, "AnyShape::closest and AnyShape::position")                                \
-  X(astar, "find_paths (shape/search.hpp), 'plexway path --astar'")                    \
-  X(darts, "poisson_disks by DartOrder::simplices")                                    \
-  X(given_lengths, "AnyShape::measure by metric::GivenLengths")
+/// What is done on a domain besides solving. `X(name, what it is, on which domains, why not on
+/// others)`; what else it takes says `support`.
+#define PLEXWAY_PURPOSES(X)                                                                      \
+  X(paths, "PathField::trace", but(simplices), paths_simplices)                                  \
+  X(read_out, "PathField::at by other levels than ReadOut::linear", but(simplices),              \
+    read_out_simplices)                                                                          \
+  X(directions, "PathField::gradient", but(wireframe, cloud), directions_domain)                 \
+  X(simplex_labels, "PathField::simplex_labels", only(surface, solid), simplex_labels_domain)    \
+  X(searches, "BoundedSearch and PathSearch", only(surface), search_domain)                      \
+  X(samples, "farthest_points, poisson_disks, centroidal_voronoi and distance_matrix",           \
+    only(surface, solid, cloud), samples_domain)                                                 \
+  X(isolines, "isolines of a field (shape/isolines.hpp)", only(surface, cloud, mixed),           \
+    isolines_domain)                                                                             \
+  X(arcs, "isolines as arcs, and fine_field (shape/isolines.hpp)", only(surface), arcs_domain)   \
+  X(isosurfaces, "isosurfaces of a field (shape/isolines.hpp)", only(solid), isosurfaces_domain) \
+  X(pictures, "ShapeScene, and pages to turn", but(simplices), pictures_domain)                  \
+  X(masks, "BuildOptions::mask", but(cloud, mixed), masks_domain)                                \
+  X(metrics, "AnyShape::measure", but(cloud, simplices), metrics_domain)                         \
+  X(tensors, "AnyShape::measure by tensors", but(mixed), metrics_speeds)                         \
+  X(regions, "AnyShape::regions", but(cloud, simplices), regions_domain)                         \
+  X(triangulations, "other triangles than the shape's, BuildOptions::triangulation",             \
+    only(surface), triangulations_domain)                                                        \
+  X(kept_builds, "AnyDomain::keep", but(mixed, simplices), kept_domain)                          \
+  X(parts, "fields in parts, .pvtu", only(surface, solid, cloud), parts_domain)                  \
+  X(volumes, "fields in a .vdb", only(solid), volumes_domain)                                    \
+  X(conversions, "'plexway convert'", but(mixed, simplices), conversions_domain)                 \
+  X(lines, "AnyShape::joined", only(surface, wireframe), shapes)                                 \
+  X(boundaries, "AnyShape::boundary", only(surface, solid, wireframe), boundaries_domain)        \
+  X(margins, "TraceOptions::margin", only(surface, cloud), margins_domain)                       \
+  X(duals, "the dual triangulation of cells, 'plexway cvt --dual'", only(surface), duals_domain) \
+  X(error_classes, "errors by place and shape, 'plexway bench --anatomy'", only(surface, solid), \
+    error_classes_domain)                                                                        \
+  X(rows, "all_pairs and near_pairs (shape/pairs.hpp)", but(), nothing)                          \
+  X(ranks, "OpenMP::ranks", but(), nothing)                                                      \
+  X(in_parts, "SurfaceParts, 'plexway-mpi distance --in-parts'", but(), nothing)                 \
+  X(pieces, "MixedComplex::add", but(), nothing)                                                 \
+  X(places, "AnyShape::closest and AnyShape::position", but(), nothing)                          \
+  X(astar, "find_paths (shape/search.hpp), 'plexway path --astar'", but(), nothing)              \
+  X(darts, "poisson_disks by DartOrder::simplices", but(cloud), darts_cloud)                     \
+  X(given_lengths, "AnyShape::measure by metric::GivenLengths", but(mixed), metrics_speeds)
 
-#define PLEXWAY_NAME(name, what) name,
+#define PLEXWAY_NAME(name, ...) name,
 /// The purposes of PLEXWAY_PURPOSES by name.
 enum class Purpose { PLEXWAY_PURPOSES(PLEXWAY_NAME) };
 #undef PLEXWAY_NAME
+
+/// Is a purpose for a kind of domain? Else why not.
+constexpr Support support_of_domain(Purpose purpose, DomainKind domain) {
+  using enum DomainKind;
+  struct Row {
+    bool on_it;
+    Refusal otherwise;
+  };
+  const auto only = [&](auto... kinds) { return ((domain == kinds) || ...); };
+  const auto but = [&](auto... kinds) { return ((domain != kinds) && ...); };
+#define PLEXWAY_ROW(name, what, domains, refusal) Row{domains, Refusal::refusal},
+  const Row rows[] = {PLEXWAY_PURPOSES(PLEXWAY_ROW)};
+#undef PLEXWAY_ROW
+  const Row& row = rows[static_cast<int>(purpose)];
+  return row.on_it ? Refusal::nothing : row.otherwise;
+}
 
 /// Is what a purpose gives in space?
 constexpr bool draws(Purpose purpose) {
@@ -223,19 +245,15 @@ constexpr Support support(Purpose purpose, const Combination& c) {
   const bool labels = saddles && !gl;
   const bool windows = c.accuracy == Accuracy::Kind::merged || c.accuracy == Accuracy::Kind::exact;
   if (c.in_parts && !goes_in_parts(purpose)) return Refusal::in_parts_whole;
+  if (const Support found = support_of_domain(purpose, c.domain); !found) return found;
   switch (purpose) {
-    case Purpose::paths:
-      if (c.domain == simplices) return Refusal::paths_simplices;
-      break;
     case Purpose::read_out:
-      if (c.domain == simplices) return Refusal::read_out_simplices;
       if (c.domain == cloud) return Refusal::read_out_cloud;
       if (c.domain == wireframe) break;                                 // by the ends
       if (c.domain == mixed || refracting || c.domain == solid) break;  // by paths
       if (!labels) return Refusal::read_out_labels;
       break;
     case Purpose::directions:
-      if (c.domain == wireframe || c.domain == cloud) return Refusal::directions_domain;
       if (c.domain == simplices || c.domain == mixed) break;  // of the linear field
       if (refracting) return Refusal::directions_refraction;
       if (by_lengths) return Refusal::directions_lengths;
@@ -243,11 +261,9 @@ constexpr Support support(Purpose purpose, const Combination& c) {
       if (!labels) return Refusal::read_out_labels;
       break;
     case Purpose::simplex_labels:
-      if (c.domain != surface && c.domain != solid) return Refusal::simplex_labels_domain;
       if (gl && (c.domain == surface || by_lengths)) return Refusal::simplex_labels_gl;
       break;
     case Purpose::searches:
-      if (c.domain != surface) return Refusal::search_domain;
       if (refracting) return Refusal::search_refraction;
       if (!saddles) return Refusal::search_visibility;
       if (windows) return Refusal::search_accuracy;
@@ -258,76 +274,21 @@ constexpr Support support(Purpose purpose, const Combination& c) {
         return Refusal::search_order;
       return support(Purpose::searches, c);
     case Purpose::samples:
-      if (c.domain != surface && c.domain != solid && c.domain != cloud)
-        return Refusal::samples_domain;
       if (refracting) return Refusal::search_refraction;
       if (by_lengths) return Refusal::samples_lengths;
       break;
     case Purpose::darts:
-      if (c.domain == cloud) return Refusal::darts_cloud;
       return support(Purpose::samples, c);
-    case Purpose::isolines:
-      if (c.domain != surface && c.domain != cloud && c.domain != mixed)
-        return Refusal::isolines_domain;
-      break;
-    case Purpose::arcs:
-      if (c.domain != surface) return Refusal::arcs_domain;
-      break;
-    case Purpose::isosurfaces:
-      if (c.domain != solid) return Refusal::isosurfaces_domain;
-      break;
-    case Purpose::pictures:
-      if (c.domain == simplices) return Refusal::pictures_domain;
-      break;
-    case Purpose::masks:
-      if (c.domain == cloud || c.domain == mixed) return Refusal::masks_domain;
-      break;
-    case Purpose::metrics:
-      if (c.domain == cloud || c.domain == simplices) return Refusal::metrics_domain;
-      if (!c.positions && c.domain != wireframe) return Refusal::metrics_lengths;
-      break;
-    case Purpose::given_lengths:
-      if (c.domain == mixed) return Refusal::metrics_speeds;
-      return support(Purpose::metrics, c);
     case Purpose::tensors:
-      if (c.domain == mixed) return Refusal::metrics_speeds;
       if (!c.positions && c.domain == wireframe) return Refusal::metrics_lengths;
       return support(Purpose::metrics, c);
-    case Purpose::regions:
-      if (c.domain == cloud || c.domain == simplices) return Refusal::regions_domain;
-      break;
-    case Purpose::triangulations:
-      if (c.domain != surface) return Refusal::triangulations_domain;
-      break;
-    case Purpose::kept_builds:
-      if (c.domain == mixed || c.domain == simplices) return Refusal::kept_domain;
-      break;
-    case Purpose::parts:
-      if (c.domain != surface && c.domain != solid && c.domain != cloud)
-        return Refusal::parts_domain;
-      break;
-    case Purpose::volumes:
-      if (c.domain != solid) return Refusal::volumes_domain;
-      break;
-    case Purpose::conversions:
-      if (c.domain == mixed || c.domain == simplices) return Refusal::conversions_domain;
-      break;
-    case Purpose::lines:
-      if (c.domain != surface && c.domain != wireframe) return Refusal::shapes;
-      break;
-    case Purpose::boundaries:
-      if (c.domain != surface && c.domain != solid && c.domain != wireframe)
-        return Refusal::boundaries_domain;
+    case Purpose::given_lengths:
+      return support(Purpose::metrics, c);
+    case Purpose::metrics:
+      if (!c.positions && c.domain != wireframe) return Refusal::metrics_lengths;
       break;
     case Purpose::margins:
-      if (c.domain != surface && c.domain != cloud) return Refusal::margins_domain;
       if (refracting) return Refusal::margins_refraction;
-      break;
-    case Purpose::duals:
-      if (c.domain != surface) return Refusal::duals_domain;
-      break;
-    case Purpose::error_classes:
-      if (c.domain != surface && c.domain != solid) return Refusal::error_classes_domain;
       break;
     case Purpose::rows:
       if (gl) return Refusal::rows_gl;
@@ -343,7 +304,7 @@ constexpr Support support(Purpose purpose, const Combination& c) {
     }
     case Purpose::pieces:
       return support_of_piece(c.domain, c.metric);
-    case Purpose::places:
+    default:
       break;
   }
   if (c.positions || !needs_positions(purpose)) return Refusal::nothing;

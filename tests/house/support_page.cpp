@@ -96,7 +96,7 @@ constexpr std::array<Named<Triangulation>, 4> triangulations = {
      {"refined", Triangulation::refined},
      {"automatic", Triangulation::automatic}}};
 
-#define PLEXWAY_PURPOSE(name, what) {what, Purpose::name},
+#define PLEXWAY_PURPOSE(name, what, ...) {what, Purpose::name},
 constexpr Named<Purpose> purposes[] = {PLEXWAY_PURPOSES(PLEXWAY_PURPOSE)};
 #undef PLEXWAY_PURPOSE
 
