@@ -209,6 +209,7 @@ constexpr Support support_of_domain(Purpose purpose, DomainKind domain) {
   };
   const auto only = [&](auto... kinds) { return ((domain == kinds) || ...); };
   const auto but = [&](auto... kinds) { return ((domain != kinds) && ...); };
+/// A purpose as a row of a table.
 #define PLEXWAY_ROW(name, what, domains, refusal) Row{domains, Refusal::refusal},
   const Row rows[] = {PLEXWAY_PURPOSES(PLEXWAY_ROW)};
 #undef PLEXWAY_ROW

@@ -7,10 +7,6 @@ namespace plexway::strings {
 
 // Where a string is held at a vertex it may be shorter past it.
 void Solver::past_corners(Attempt& a, Index to, Outcome& outcome) {
-  const auto is_at_end = [](const Knot& k) {
-    return k.t < k.place->low + unmoved || k.t > k.place->high - unmoved;
-  };
-  if (turns_at_held(a) && is_at_end(a.string.knots[0])) release(a, a.held);
   for (std::size_t k = a.string.bends(); k > 0 && k <= a.string.bends(); --k) {
     const Index vertex = vertex_of(a, k);
     if (vertex == none) continue;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <utility>
 
 namespace plexway::strings {
@@ -82,7 +81,7 @@ void Puller::measure(String& string) {
   const std::size_t n = string.bends();
   legs_.resize(n + 1);
   lengths_.resize(n + 1);
-  double sum = string.before;
+  double sum = 0;
   for (std::size_t i = 0; i <= n; ++i) {
     Knot& next = knots[i + 1];
     if (i < n) {
@@ -246,6 +245,7 @@ void Puller::pull(String& string) {
     weighted_ = weighted_ || knot.slowness != knots[k - 1].slowness;
   }
   weighted_ = weighted_ || has_planes;
+  if (n > 0 && !weighted_ && pull_strips(string)) return measure(string);
   if (n == 1) pull_each(string);
   measure(string);
   if (n < 2) return;
@@ -255,50 +255,16 @@ void Puller::pull(String& string) {
     pull_by<1>(string);
 }
 
-// Rows that meet in a vertex, their neighbours fixed: unfolded about them, straight across, or
-// where that turns pi or more all bends to the vertex. None of them gets there by itself.
-void Puller::pull_fans(String& string) {
-  constexpr double straight = std::numbers::pi - 1e-6;
-  auto& knots = string.knots;
-  const std::size_t last = knots.size() - 1;
-  const auto angle = [](const Point& p, const Point& q) {
-    return std::atan2(norm(cross(p, q)), dot(p, q));
-  };
-  const auto has = [&](std::size_t k, Index v) {
-    const Place& p = *knots[k].place;
-    return p.end[0] == v || p.end[1] == v;
-  };
-  for (std::size_t k = 1, end; k + 1 < last; k = end - 1) {
-    end = k + 2;
-    const Place& first = *knots[k].place;
-    const bool low = has(k + 1, first.end[0]);
-    const Index v = first.end[low ? 0 : 1];
-    if (v == none || knots[k + 1].place == &first || (!low && !has(k + 1, v))) continue;
-    while (end < last && has(end, v)) ++end;
-    const Point at = first.at(low ? first.low : first.high);
-    const auto along = [&](std::size_t n) {
-      const Place& p = *knots[n].place;
-      return p.end[0] == v ? p.along : -1. * p.along;
-    };
-    const Point in = knots[k - 1].at - at, out = knots[end].at - at;
-    double turned = angle(in, along(k));
-    move_[k - 1] = turned;
-    for (std::size_t n = k + 1; n < end; ++n)
-      move_[n - 1] = turned += angle(along(n - 1), along(n));
-    turned += angle(along(end - 1), out);
-    const double before = norm(in), behind = norm(out);
-    for (std::size_t n = k; n < end; ++n) {
-      const Place& p = *knots[n].place;
-      const double up = move_[n - 1];
-      const double reach = turned < straight
-                               ? before * behind * std::sin(turned) /
-                                     (before * std::sin(up) + behind * std::sin(turned - up))
-                               : 0;
-      knots[n].t =
-          p.end[0] == v ? std::min(p.low + reach, p.high) : std::max(p.high - reach, p.low);
-      knots[n].at = p.at(knots[n].t);
-    }
+// Strips one after another, their neighbours fixed. Is one all of the string, which is as short as
+// it can be then?
+bool Puller::pull_strips(String& string) {
+  const std::size_t end = string.knots.size() - 1;
+  std::size_t k = 1, first = 0;
+  while (k < end) {
+    k = strip_.pull(string, k);
+    if (first == 0) first = k;
   }
+  return first == end;
 }
 
 // Are bends so near to each other that Newton's method does not see what is beyond?
@@ -371,17 +337,15 @@ void Puller::pull_by(String& string) {
       if (!ends) continue;
       if (weighted_ || !is_kinked(string)) return;
     }
-    // Too far, or over a corner where rows of edges meet.
+    // Too far, or over a vertex where rows meet.
     const double before = string.length;
-    if (!weighted_) {
-      keep(string);
-      pull_fans(string);
-      measure(string);
-      if (string.length < before * (1 - 10 * rounding)) continue;
-      restore(string);
-    }
-    pull_each(string);
+    keep(string);
+    if (weighted_)
+      pull_each(string);
+    else
+      pull_strips(string);
     measure(string);
+    if (!weighted_ && string.length > before) restore(string);
     // Two bends that meet are for who made the string to part or to join.
     if (weighted_) {
       constexpr double together = 1e-6;
@@ -406,17 +370,6 @@ bool is_held(const String& string, std::size_t knot) {
   const double slope = string.knots[knot - 1].slowness * dot(p.along, string.direction(knot - 1)) -
                        k.slowness * dot(p.along, string.direction(knot));
   return low ? slope > outward : slope < -outward;
-}
-
-double most_gain(const String& string, const Point& in, double slowness) {
-  const Knot& first = string.knots[0];
-  const Place& p = *first.place;
-  const Point pull = slowness * in - first.slowness * string.direction(0);
-  const double slope = dot(pull, p.along);
-  if (!p.is_plane) return slope > 0 ? slope * (first.t - p.low) : -slope * (p.high - first.t);
-  // Where it is and where it would be are both that near to the source.
-  const double reach = string.length / std::min(slowness, first.slowness);
-  return std::hypot(slope, dot(pull, p.wide)) * 2 * reach;
 }
 
 bool is_at_rest(const Place& one, const Point& in, const Place& two, const Point& out,

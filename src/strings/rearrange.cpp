@@ -26,6 +26,7 @@ bool Solver::gains(const Point& in, const Point& out, std::span<const Index> doo
     Knot k = knot(door, at - in + double(s.knots.size()) / double(doors.size() + 1) * way);
     copies_.push_back(*k.place);
     Place& copy = copies_.back();
+    copy.end[0] = copy.end[1] = none;
     if (kind(k) != Kind::corner) {
       copy.low = -unreached;
       copy.high = unreached;
@@ -77,10 +78,6 @@ bool Solver::collapse(Attempt& a, std::size_t leg, bool& useless) {
   const Index own = knots[leg].medium;
   if ((leg == 0 || knots[leg - 1].medium == own) && (leg == n || knots[leg + 1].medium == own))
     return false;  // in one medium places lift off
-  if (leg == 0 && a.held > 0) {
-    release(a, a.held);
-    return true;
-  }
   if (leg == 0 || leg == n) {
     // At an end another label begins or ends in the medium behind.
     if (norm(s.at(leg + 1) - s.at(leg)) > unmoved) return false;
@@ -247,22 +244,6 @@ bool Solver::drop_lifted(Attempt& a, std::size_t k, Index to) {
   return true;
 }
 
-// Does the string go on in another direction from the last of the places that are held?
-bool Solver::turns_at_held(const Attempt& a) const {
-  if (a.held == 0) return false;
-  const Point moved = a.string.at(1) - base_.string.at(a.held + 1);
-  return dot(moved, moved) > unmoved * unmoved;
-}
-
-// And does it lift off there?
-bool Solver::lifts_off_held(const Attempt& a, Index to) const {
-  const Knot& first = a.string.knots[0];
-  if (!turns_at_held(a) || first.place->holds() || kind(first) != Kind::bend) return false;
-  const Leg& in = leg_before(a, 0);
-  const auto row = base_.string.row_from(a.held, a.held - 1);
-  return !presses(a, 0, in, row ? *row : in.from - first.at, to);
-}
-
 // Are the places right for the string as it is? One that is not is changed.
 bool Solver::rearrange(Attempt& a, Index to, bool& useless) {
   const auto& knots = a.string.knots;
@@ -288,9 +269,7 @@ bool Solver::rearrange(Attempt& a, Index to, bool& useless) {
         break;
     }
   }
-  if (!lifts_off_held(a, to)) return false;
-  release(a, a.held);
-  return true;
+  return false;
 }
 
 }  // namespace plexway::strings

@@ -23,7 +23,7 @@ Point Solver::end_of_leg(const Attempt& a, std::size_t k, std::size_t other, Ind
   if (space_->kind(q) != Kind::patch)
     return space_->beside(q, behind.medium, knot.at, toward, free);
   // On one side of a crack through the plane, for both legs.
-  const Point side = knot.at + (leg_before(a, k).from - knot.at) + (knot.leg.to - knot.at);
+  const Point side = knot.at + (knots[k - 1].leg.from - knot.at) + (knot.leg.to - knot.at);
   return space_->beside(q, behind.medium, knot.at, toward, side);
 }
 
@@ -75,26 +75,11 @@ void Solver::replace(Attempt& a, std::size_t begin, std::size_t end, std::span<c
 
 // The string of the node that offers, to another end.
 void Solver::start(Index to) {
-  constexpr std::size_t loose = 3;
-  const auto& base = base_.string.knots;
-  Attempt& a = attempt_;
-  a.held = std::max(base.size(), loose + 2) - (loose + 2);
-  a.string.knots.assign(base.begin() + static_cast<std::ptrdiff_t>(a.held), base.end());
-  a.string.knots.back().at = at(to);
-  a.string.before = base[a.held].before;
-  a.root = base_.root;
-  a.touched = false;
-  a.splits = 0;
-}
-
-// So many of the knots that are held are no longer.
-void Solver::release(Attempt& a, std::size_t count) {
-  const auto& base = base_.string.knots;
-  const auto end = base.begin() + static_cast<std::ptrdiff_t>(a.held);
-  a.held -= std::min(count, a.held);
-  a.string.knots.insert(a.string.knots.begin(), base.begin() + static_cast<std::ptrdiff_t>(a.held),
-                        end);
-  a.string.before = base[a.held].before;
+  attempt_.string.knots = base_.string.knots;
+  attempt_.string.knots.back().at = at(to);
+  attempt_.root = base_.root;
+  attempt_.touched = false;
+  attempt_.splits = 0;
 }
 
 bool Solver::is_edge(const Attempt& a) const {
@@ -116,6 +101,10 @@ std::size_t Solver::blocked(const Attempt& a, Index to) {
     const auto& medium = space_->media()[knots[k].medium];
     if (!medium.room) continue;
     if (k + 1 == legs && is_edge(a)) continue;
+    if (k > 0 && k + 1 < legs && kind(knots[k]) == Kind::bend && kind(knots[k + 1]) == Kind::bend &&
+        medium.room->are_on_face(place_of(knots[k]) - medium.first_bend, knots[k].at,
+                                 place_of(knots[k + 1]) - medium.first_bend, knots[k + 1].at))
+      continue;
     const Point from = end_of_leg(a, k, k + 1, to), end = end_of_leg(a, k + 1, k, to);
     const Leg& leg = knots[k].leg;
     if (leg.known && !moved(from, leg.from) && !moved(end, leg.to)) continue;
@@ -152,41 +141,22 @@ bool Solver::insert_touched(Attempt& a, std::size_t k, Index to) {
 }
 
 // Pulled, places dropped and put in until all legs are free; no further if it is of no use, or
-// as long as `least`. Of a long string its end first, the rest held as it is.
+// as long as `least`.
 Solver::Outcome Solver::settle(Attempt& a, Index to, double least) {
   constexpr int most = 48;
-  constexpr double exact = 1e-14;
-  String& string = a.string;
   bool useless = false;
   for (int round = 0; round < most; ++round) {
-    puller_.pull(string);
-    if (rearrange(a, to, useless)) {
-      if (string.bends() < 2) release(a, 3 - string.bends());
-      continue;
-    }
-    if (useless) return Outcome::longer;
-    const auto is_useful = [&](double length) {
-      return length < least + offset(a) && length < direct_ &&
-             length * (1 + 1e-12) < limit(to, last_leg(a));
-    };
-    double more = 0;
-    if (a.held > 0) {
-      const Knot& before = base_.string.knots[a.held - 1];
-      more = most_gain(string, base_.string.direction(a.held - 1), before.slowness);
-    }
-    if (!is_useful(length(a) - more)) return Outcome::longer;
-    const std::size_t leg =
-        more > 0 && !is_useful(length(a)) ? string.knots.size() : blocked(a, to);
-    if (leg + 1 < string.knots.size()) {
-      if (!insert_touched(a, leg, to)) break;
-    } else if (leg + 1 == string.knots.size() && more <= exact * string.length) {
-      return Outcome::free;
-    } else {
-      release(a, a.held);
-    }
+    puller_.pull(a.string);
+    if (rearrange(a, to, useless)) continue;
+    const double found = length(a);
+    if (useless || !(found < least + offset(a) && found < direct_ &&
+                     found * (1 + 1e-12) < limit(to, last_leg(a))))
+      return Outcome::longer;
+    const std::size_t leg = blocked(a, to);
+    if (leg + 1 == a.string.knots.size()) return Outcome::free;
+    if (!insert_touched(a, leg, to)) break;
   }
-  release(a, a.held);
-  puller_.pull(string);
+  puller_.pull(a.string);
   return Outcome::stuck;
 }
 

@@ -137,19 +137,20 @@ std::optional<Sight::Touch> Sight::highest(const Point& from, const Point& to, c
   const Point up = unit(off), normal = cross(ahead, up);
   std::optional<Touch> best;
   double steepest = -1e300;
+  const auto side = [&](Index v) { return dot(normal, points_[v] - from); };
   const auto follow = [&](const Wall& wall) {
     constexpr int most = 4096;  // faces; far more than between neighbours
     Index face = wall.face, entered = 3;
+    double before[3];  // of the corners of the face, across the plane
+    for (Index k = 0; k < 3; ++k) before[k] = side(boundary_->faces[face].corner[k]);
     for (int n = 0; n < most; ++n) {
       const auto& f = boundary_->faces[face];
-      double side[3];
-      for (std::size_t k = 0; k < 3; ++k) side[k] = dot(normal, points_[f.corner[k]] - from);
       // Of the two edges that the plane cuts, the one not entered by; at first the higher one.
       Index leave = 3;
       Point at{};
       double height = 0;
       for (Index k = 0; k < 3; ++k) {
-        const double s = side[(k + 1) % 3], t = side[(k + 2) % 3];
+        const double s = before[(k + 1) % 3], t = before[(k + 2) % 3];
         if (k == entered || (s < 0) == (t < 0)) continue;
         const Point &a = points_[f.corner[(k + 1) % 3]], &b = points_[f.corner[(k + 2) % 3]];
         const Point p = a + s / (s - t) * (b - a);
@@ -171,10 +172,16 @@ std::optional<Sight::Touch> Sight::highest(const Point& from, const Point& to, c
       const Index next = f.across[leave];
       if (next == wall.face) return;
       const auto& g = boundary_->faces[next];
+      const Index one = (leave + 1) % 3, two = (leave + 2) % 3;
       entered = 0;
-      while (g.across[entered] != face || g.corner[entered] == f.corner[(leave + 1) % 3] ||
-             g.corner[entered] == f.corner[(leave + 2) % 3])
+      while (g.across[entered] != face || g.corner[entered] == f.corner[one] ||
+             g.corner[entered] == f.corner[two])
         if (++entered == 3) return;
+      const bool same = g.corner[(entered + 1) % 3] == f.corner[one];
+      const double first = before[same ? one : two], second = before[same ? two : one];
+      before[(entered + 1) % 3] = first;
+      before[(entered + 2) % 3] = second;
+      before[entered] = side(g.corner[entered]);
       face = next;
     }
   };

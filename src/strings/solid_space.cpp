@@ -67,7 +67,7 @@ void SolidSpace::find_inside(const TetMesh<Real>& mesh) {
       if (least <= clear) sum = unit(sum + (2 * clear - least) * normal(worst));
     }
     slot_[v] = static_cast<Index>(inside_.size());
-    inside_.push_back({sum, 0, 0});
+    inside_.push_back({sum, 0, 0, static_cast<Index>(first)});
     if (least > clear) continue;
     Inside& inside = inside_.back();
     inside.begin = static_cast<Index>(cones_.size());
@@ -126,6 +126,28 @@ Point SolidSpace::beside(const Place& place, double t, const Point& toward,
   return into(std::span<const Boundary::Wedge>(boundary_.wedges)
                   .subspan(place.first_wedge, place.last_wedge - place.first_wedge),
               place.off_ends(t, near_.aside), toward, free);
+}
+
+bool SolidSpace::are_on_face(Index row, const Point& at, Index next, const Point& to) const {
+  const Place &p = boundary_.places[row], &q = boundary_.places[next];
+  for (const Index v : p.end) {
+    if (v == none || (v != q.end[0] && v != q.end[1])) continue;
+    for (const auto& [vertex, f] : faces_at(v)) {
+      const Boundary::Face& face = boundary_.faces[f];
+      int on = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index i = face.corner[(k + 1) % 3], j = face.corner[(k + 2) % 3];
+        if (i != v && j != v) continue;
+        const bool is_row = face.place[k] == row;
+        if (!is_row && face.place[k] != next) continue;
+        const Point edge = points_[i == v ? j : i] - points_[v],
+                    d = (is_row ? at : to) - points_[v];
+        on += dot(d, d) <= dot(edge, edge) ? 1 : 0;
+      }
+      if (on == 2) return true;
+    }
+  }
+  return false;
 }
 
 std::size_t SolidSpace::bytes() const {

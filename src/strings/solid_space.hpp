@@ -58,8 +58,14 @@ class SolidSpace {
   }
   /// Faces of the boundary at a vertex: vertex and face.
   [[nodiscard]] std::span<const std::pair<Index, Index>> faces_at(Index vertex) const {
-    return of(faces_at_, vertex);
+    const Index slot = slot_[vertex];
+    if (slot == none) return {};
+    const std::size_t first = inside_[slot].face,
+                      last = slot + 1 < inside_.size() ? inside_[slot + 1].face : faces_at_.size();
+    return std::span(faces_at_).subspan(first, last - first);
   }
+  /// Are two points of rows of edges, at `row` and at `next`, on one face of the boundary?
+  [[nodiscard]] bool are_on_face(Index row, const Point& at, Index next, const Point& to) const;
   [[nodiscard]] std::size_t bytes() const;
 
  private:
@@ -71,6 +77,7 @@ class SolidSpace {
   struct Inside {
     Point direction;
     Index begin, end;
+    Index face;  // of faces_at_, the first one
   };
   static std::span<const std::pair<Index, Index>> of(
       const std::vector<std::pair<Index, Index>>& pairs, Index vertex) {

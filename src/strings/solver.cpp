@@ -78,7 +78,6 @@ bool Solver::go_by_edges() {
     if (!is_shorter(node, label, to)) continue;
     from_ = node;
     go_by_corner(node, label, to);
-    release(attempt_, attempt_.held);
     puller_.pull(attempt_.string);
     accept(attempt_, to);
   }
@@ -179,7 +178,6 @@ void Solver::prepare(Index node, const Label& label) {
   base_node_ = node;
   base_chain_ = label.chain;
   Attempt& a = base_;
-  a.held = 0;
   std::size_t n = 0;
   Index chain = label.chain;
   for (; !chains_.is_root(chain); chain = chains_[chain].parent) ++n;
@@ -195,22 +193,15 @@ void Solver::prepare(Index node, const Label& label) {
     knots[k].u = hints_[chain][1];
     knots[k].medium = space_->medium_behind(knots[k].door);
     knots[k].slowness = slowness(knots[k].medium);
-    knots[k].chain = chain;
   }
   knots[0].at = sources_[root.source].at;
   knots[0].medium = root.medium;
   knots[0].slowness = slowness(root.medium);
-  knots[0].chain = chain;
   knots[n + 1].at = at(node);
   puller_.pull(a.string);
   // Pulled from elsewhere it is the same; else its legs are not known.
   const bool same = std::abs(length(a) - label.distance) < rounding * (1 + label.distance);
-  for (std::size_t k = 0; k <= n; ++k) {
-    knots[k].leg = {knots[k].at, knots[k + 1].at, true};
-    if (k > 0)
-      knots[k].before =
-          knots[k - 1].before + knots[k - 1].slowness * norm(knots[k].at - knots[k - 1].at);
-  }
+  for (std::size_t k = 0; k <= n; ++k) knots[k].leg = {knots[k].at, knots[k + 1].at, true};
   // Then ends know the sides of cracks in patches from each other.
   for (const bool again : {false, true})
     for (std::size_t k = 0; k <= n && (!again || !plain_); ++k)
@@ -287,7 +278,7 @@ const Place* Solver::place(Index number) {
 
 void Solver::accept(const Attempt& a, Index to) {
   const auto& knots = a.string.knots;
-  Index chain = knots[0].chain;
+  Index chain = chains_.root(a.root);
   for (std::size_t k = 1; k + 1 < knots.size(); ++k) {
     chain = chains_.with(chain, knots[k].door);
     hints_.resize(chains_.size(), {});

@@ -116,8 +116,7 @@ class Solver {
   };
   /// A string on its way to a new end.
   struct Attempt {
-    String string;         ///< of a long one the end alone:
-    std::size_t held = 0;  ///< so many knots of the string that is offered come before, as they are
+    String string;
     Index root = 0;
     bool touched = false;  ///< something was put in
     int splits = 0;
@@ -145,7 +144,6 @@ class Solver {
   Outcome attempt_corner(Index from, const Label& label, Index to);
   Outcome attempt(Index from, const Label& label, Index to, Index door);
   void start(Index to);
-  void release(Attempt& a, std::size_t count);
   Outcome settle(Attempt& a, Index to, double least);
   Outcome improve(Attempt& a, Index to, Outcome outcome);
   void past_corners(Attempt& a, Index to, Outcome& outcome);
@@ -164,8 +162,6 @@ class Solver {
   [[nodiscard]] bool presses(const Attempt& a, std::size_t k, const Leg& in, const Point& from,
                              Index to) const;
   bool drop_lifted(Attempt& a, std::size_t k, Index to);
-  [[nodiscard]] bool turns_at_held(const Attempt& a) const;
-  [[nodiscard]] bool lifts_off_held(const Attempt& a, Index to) const;
   [[nodiscard]] bool gains(const Point& in, const Point& out, std::span<const Index> doors,
                            Index before, const Point& at, Index row);
   void move_apart(Attempt& a, std::size_t begin, const Point& at);
@@ -185,11 +181,7 @@ class Solver {
   [[nodiscard]] double offset(const Attempt& a) const {
     return sources_[roots_[a.root].source].offset;
   }
-  /// Of a whole string, or one whose first knots are held.
   [[nodiscard]] double length(const Attempt& a) const { return offset(a) + a.string.length; }
-  [[nodiscard]] const Leg& leg_before(const Attempt& a, std::size_t k) const {
-    return k > 0 ? a.string.knots[k - 1].leg : base_.string.knots[a.held - 1].leg;
-  }
   [[nodiscard]] Point end_of_leg(const Attempt& a, std::size_t k, std::size_t other,
                                  Index to) const;
   [[nodiscard]] Point toward(const Attempt& a, std::size_t k, std::size_t other, Index to) const;
