@@ -34,29 +34,25 @@ class FlatSolver {
 
   explicit FlatSolver(const FlatSpace<N>& space) : space_(&space), taut_(space.flat()) {}
 
-  /// From vertices; false if the expansions ended before it did. Nothing beyond the radius offers.
-  /// `progress(expansions, distance)`.
-  template <class Progress>
-  bool solve(std::span<const FlatRoot> sources, double radius, std::size_t most,
-             const Progress& progress) {
+  /// From vertices; false if the expansions ended before it did.
+  bool solve(std::span<const FlatRoot> sources, const Limits& limits) {
     known_.assign(space_->vertices(), {});
     roots_.assign(sources.begin(), sources.end());
     chains_.clear();
     hints_.clear();
     queue_.clear();
-    expansions_ = labels_ = 0;
+    counts_ = {};
     for (Index n = 0; n < sources.size(); ++n)
       take(sources[n].vertex, {sources[n].sigma, chains_.root(n), {}});
     while (!queue_.empty()) {
-      std::pop_heap(queue_.begin(), queue_.end());
-      const Offer next = queue_.back();
-      queue_.pop_back();
-      if (next.distance > radius) break;
+      const Queue::Offer next = queue_.pop();
+      if (next.distance > limits.radius) break;
       const Label* found = known_[next.vertex].find(next.chain, next.distance);
       if (found == nullptr) continue;
-      if (expansions_ >= most) return false;
-      if (expansions_ % 1024 == 0) progress(expansions_, next.distance);
-      ++expansions_;
+      const std::size_t expansions = counts_.expansions;
+      if (expansions >= limits.expansions) return false;
+      if (limits.progress && expansions % 1024 == 0) limits.progress(expansions, next.distance);
+      ++counts_.expansions;
       const Label label = *found;
       prepare(next.vertex, label);
       for (const Index w : space_->neighbours(next.vertex)) offer(next.vertex, label, w);
@@ -70,11 +66,10 @@ class FlatSolver {
     const Index chain = known_[vertex].best().chain;
     return chain == none ? none : roots_[chains_.source(chain)].source;
   }
-  [[nodiscard]] std::size_t expansions() const { return expansions_; }
-  [[nodiscard]] std::size_t labels() const { return labels_; }
+  [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] std::size_t bytes() const {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    return chains_.bytes() + of(hints_) + of(known_) + of(roots_) + of(queue_);
+    return chains_.bytes() + of(hints_) + of(known_) + of(roots_) + queue_.bytes();
   }
 
  private:
@@ -83,14 +78,6 @@ class FlatSolver {
   static constexpr double behind = .5;          // a second label, at most so many edges
   static constexpr std::size_t most_bends = 6;  // more cost far more and gain next to nothing
 
-  struct Offer {
-    double distance;
-    Index vertex, chain;
-    friend bool operator<(const Offer& a, const Offer& b) {
-      if (a.distance != b.distance) return a.distance > b.distance;
-      return a.vertex != b.vertex ? a.vertex > b.vertex : a.chain > b.chain;
-    }
-  };
   /// A bend of a string.
   struct Bend {
     Index face;
@@ -118,9 +105,8 @@ class FlatSolver {
 
   void take(Index vertex, const Label& label) {
     if (!known_[vertex].take(label, behind)) return;
-    ++labels_;
-    queue_.push_back({label.distance, vertex, label.chain});
-    std::push_heap(queue_.begin(), queue_.end());
+    ++counts_.labels;
+    queue_.push({label.distance, vertex, label.chain});
   }
 
   void pull(Attempt& a) {
@@ -349,11 +335,11 @@ class FlatSolver {
   Chains chains_;
   std::vector<Along> hints_;  // of a chain: where its last bend was at last
   std::vector<VertexLabelsIn<Point>> known_;
-  std::vector<Offer> queue_;
+  Queue queue_;
   Attempt base_, attempt_, other_;
   Index from_ = none;  // the vertex that offers
   double direct_ = 0;  // on from there along the edge: a string that is offered is no longer
-  std::size_t expansions_ = 0, labels_ = 0;
+  Counts counts_;
 };
 
 }  // namespace plexway::strings

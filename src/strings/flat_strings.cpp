@@ -22,14 +22,10 @@ void FlatStrings::solve(const SimplicialComplex<Real, 4>& complex,
   for (const PointSource& s : sources)
     roots_.push_back(
         {complex.inside_vertex(s.vertex), s.offset / unit, static_cast<Index>(roots_.size())});
-  field.complete = solver_->solve(roots_, options.radius / unit, options.max_expansions,
-                                  [&](std::size_t expansions, double distance) {
-                                    strings::report(options, expansions, complex.simplex_count(),
-                                                    distance * unit);
-                                  });
-  strings::to_field(complex, *solver_, sources, options.radius, field);
-  field.statistics.expansions = solver_->expansions();
-  field.statistics.updates = solver_->labels();
+  field.complete =
+      solver_->solve(roots_, strings::limits_of(options, unit, complex.simplex_count()));
+  const auto number = [&](Index vertex) { return complex.inside_vertex(vertex); };
+  strings::to_field(*solver_, complex.vertex_count(), number, unit, sources, options.radius, field);
 }
 
 template void FlatStrings::solve(const SimplicialComplex<float, 4>&, std::span<const PointSource>,

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -28,6 +30,47 @@ struct LabelIn {
   P last = {};  ///< its last leg's direction, unit: the field's gradient
 };
 using Label = LabelIn<Point>;
+
+/// Strings that vertices are to offer on, the nearest first.
+class Queue {
+ public:
+  struct Offer {
+    double distance;
+    Index vertex, chain;
+    friend bool operator<(const Offer& a, const Offer& b) {
+      if (a.distance != b.distance) return a.distance > b.distance;
+      return a.vertex != b.vertex ? a.vertex > b.vertex : a.chain > b.chain;
+    }
+  };
+  void push(const Offer& offer) {
+    offers_.push_back(offer);
+    std::push_heap(offers_.begin(), offers_.end());
+  }
+  Offer pop() {
+    std::pop_heap(offers_.begin(), offers_.end());
+    const Offer next = offers_.back();
+    offers_.pop_back();
+    return next;
+  }
+  void clear() { offers_.clear(); }
+  [[nodiscard]] bool empty() const { return offers_.empty(); }
+  [[nodiscard]] std::size_t bytes() const { return offers_.capacity() * sizeof(Offer); }
+
+ private:
+  std::vector<Offer> offers_;
+};
+
+/// What a solve took.
+struct Counts {
+  std::size_t expansions = 0, labels = 0;
+};
+
+struct Limits {
+  double radius = std::numeric_limits<double>::infinity();
+  std::size_t expansions = std::numeric_limits<std::size_t>::max();
+  /// Called every 1024 expansions or oftener with how many there were, and how far the front is.
+  std::function<void(std::size_t, double)> progress;
+};
 
 /// A vertex keeps the shortest strings that come to it from different sides: one that is not much
 /// longer than the shortest may be the shortest of a neighbour.

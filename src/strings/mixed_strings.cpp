@@ -1,10 +1,9 @@
 #include "strings/mixed_strings.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
-#include <plexway/error.hpp>
+#include "strings/to_field.hpp"
 
 namespace plexway {
 namespace {
@@ -62,42 +61,10 @@ void MixedStrings::solve(const MixedComplex<Real>& domain, std::shared_ptr<const
   for (const PointSource& s : sources)
     sources_.push_back(source_of(*space_, s, inside_[sources_.size()]));
   const double unit = media.unit();
-  strings::Limits limits;
-  limits.radius = options.radius / unit;
-  limits.expansions = options.max_expansions;
-  if (options.progress)
-    limits.progress = [&](std::size_t expansions, double distance) {
-      const std::size_t all = domain.simplex_count();
-      if (!options.progress({expansions, std::min(expansions, all), all, distance * unit}))
-        throw Cancelled("cancelled by the progress callback");
-    };
-  field.complete = solver_->solve(sources_, limits);
-  constexpr Real infinity = std::numeric_limits<Real>::infinity();
-  const std::size_t vertices = domain.vertex_count();
-  field.distance.resize(vertices);
-  field.label.assign(sources.size() > 1 ? vertices : 0, none);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const Index point = space_->point[v];
-    const Real d = static_cast<Real>(solver_->distance(point) * unit);
-    const bool in = d <= static_cast<Real>(options.radius) && d < infinity;
-    field.distance[v] = in ? d : infinity;
-    if (in && sources.size() > 1) field.label[v] = solver_->source(point);
-  }
-  // An offset survives scaling exactly, and a vertex that no simplex has is a source all the same.
-  for (Index n = 0; n < sources.size(); ++n) {
-    const PointSource& s = sources[n];
-    const Real offset = static_cast<Real>(s.offset);
-    if (s.vertex == none || s.offset > options.radius || !(offset < field.distance[s.vertex]))
-      continue;
-    field.distance[s.vertex] = offset;
-    if (sources.size() > 1) field.label[s.vertex] = n;
-  }
-  field.accuracy = Accuracy::accurate();
-  field.error.clear();
-  field.statistics = {};
-  field.statistics.expansions = solver_->counts().expansions;
-  field.statistics.updates = solver_->counts().labels;
-  field.statistics.reached_simplices = 0;
+  field.complete =
+      solver_->solve(sources_, strings::limits_of(options, unit, domain.simplex_count()));
+  const auto number = [&](Index vertex) { return space_->point[vertex]; };
+  strings::to_field(*solver_, domain.vertex_count(), number, unit, sources, options.radius, field);
 }
 
 MixedStrings::Found MixedStrings::at(const PointSource& point) const {

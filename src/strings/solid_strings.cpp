@@ -88,18 +88,10 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
     sources_.push_back(source_of(mesh, *space_, s, tets_[n]));
   }
   std::sort(inside_.begin(), inside_.end());
-  strings::Limits limits;
-  limits.radius = options.radius / mesh.unit();
-  limits.expansions = options.max_expansions;
-  if (options.progress)
-    limits.progress = [&](std::size_t expansions, double distance) {
-      strings::report(options, expansions, mesh.tet_count(), distance * mesh.unit());
-    };
-  field.complete = solver_->solve(sources_, limits);
-  strings::to_field(mesh, *solver_, sources, options.radius, field);
-  field.accuracy = Accuracy::accurate();
-  field.statistics.expansions = solver_->counts().expansions;
-  field.statistics.updates = solver_->counts().labels;
+  const double unit = mesh.unit();
+  field.complete = solver_->solve(sources_, strings::limits_of(options, unit, mesh.tet_count()));
+  const auto number = [&](Index vertex) { return mesh.inside_vertex(vertex); };
+  strings::to_field(*solver_, mesh.vertex_count(), number, unit, sources, options.radius, field);
 }
 
 SolidStrings::Found SolidStrings::found(Index vertex) const {

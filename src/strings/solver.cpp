@@ -50,21 +50,19 @@ bool Solver::add(std::span<const Source> sources, const Limits& limits) {
   for (std::size_t n = 0; n < sources.size(); ++n) seed(static_cast<Index>(first + n), sources[n]);
   left_.clear();
   while (!queue_.empty() || go_by_edges()) {
-    std::pop_heap(queue_.begin(), queue_.end());
-    const Offer next = queue_.back();
-    queue_.pop_back();
+    const Queue::Offer next = queue_.pop();
     if (next.distance > limits.radius) {
       queue_.clear();
       continue;
     }
-    const Label* found = nodes_[next.node].find(next.chain, next.distance);
+    const Label* found = nodes_[next.vertex].find(next.chain, next.distance);
     if (found == nullptr) continue;
-    if (!plain_ && next.distance > best_[point_of(next.node)] + reach_[next.node]) continue;
+    if (!plain_ && next.distance > best_[point_of(next.vertex)] + reach_[next.vertex]) continue;
     const std::size_t expansions = counts_.expansions - before;
     if (expansions >= limits.expansions) return false;
     if (limits.progress && expansions % 512 == 0) limits.progress(expansions, next.distance);
     ++counts_.expansions;
-    expand(next.node, Label(*found));
+    expand(next.vertex, Label(*found));
   }
   return true;
 }
@@ -118,8 +116,7 @@ void Solver::take(Index node, const Label& label) {
     double& best = best_[point_of(node)];
     best = std::min(best, label.distance);
   }
-  queue_.push_back({label.distance, node, label.chain});
-  std::push_heap(queue_.begin(), queue_.end());
+  queue_.push({label.distance, node, label.chain});
 }
 
 void Solver::expand(Index node, const Label& label) {
@@ -390,7 +387,7 @@ Solver::Path Solver::path(Index point) {
 std::size_t Solver::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return chains_.bytes() + of(hints_) + of(nodes_) + of(best_) + of(reach_) + of(reached_) +
-         of(queue_) + of(left_) + of(sources_) + of(roots_);
+         queue_.bytes() + of(left_) + of(sources_) + of(roots_);
 }
 
 }  // namespace plexway::strings

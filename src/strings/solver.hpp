@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <span>
 #include <unordered_map>
@@ -38,18 +37,6 @@ struct Source {
   Index point = none;              ///< of the space, if it is one
   std::span<const Inside> inside;  ///< else all simplices that have it
   double offset = 0;
-};
-
-struct Limits {
-  double radius = std::numeric_limits<double>::infinity();
-  std::size_t expansions = std::numeric_limits<std::size_t>::max();
-  /// Called every 1024 expansions or oftener with how many there were, and how far the front is.
-  std::function<void(std::size_t, double)> progress;
-};
-
-/// What it took.
-struct Counts {
-  std::size_t expansions = 0, labels = 0;
 };
 
 class Solver {
@@ -122,14 +109,6 @@ class Solver {
     int splits = 0;
   };
   enum class Outcome { free, longer, stuck };
-  struct Offer {
-    double distance;
-    Index node, chain;
-    friend bool operator<(const Offer& a, const Offer& b) {
-      if (a.distance != b.distance) return a.distance > b.distance;
-      return a.node != b.node ? a.node > b.node : a.chain > b.chain;
-    }
-  };
   using Spot = std::array<double, 2>;
 
   void seed(Index number, const Source& source);
@@ -228,7 +207,7 @@ class Solver {
   std::vector<double> reach_;                  // of nodes, likewise: the time of their longest edge
   std::vector<Index> reached_;                 // nodes
   std::vector<std::pair<Index, Index>> left_;  // edges for the end
-  std::vector<Offer> queue_;
+  Queue queue_;
   std::unordered_map<Index, Place> corners_;
   Puller puller_;
   Corner corner_;
