@@ -21,7 +21,7 @@ from ._results import (
     Picture,
     Points,
 )
-from ._sources import columns_of, index, located, only_place, place
+from ._sources import columns_of, index, located, only_place, open_sources, place
 from ._warnings import warn
 
 if TYPE_CHECKING:
@@ -245,13 +245,14 @@ class Domain:
         if type(source) is int and radius == _INFINITY and threads is None and progress is None:
             if executor is None and visibility == "saddles" and accuracy is None:
                 vertex = _plexway.Point(index(source, self._native.vertex_count, "vertex"), 0.0)
+                self._native.require_open([vertex])
                 found, _, _, doubts = _plexway.solve(
                     self._native, [vertex], _DEFAULT, False, False, None
                 )
                 warn(doubts, self)
                 return found if out is None else _into(out, found)
         arguments = _arguments(threads, executor, radius, visibility, accuracy)
-        sources = located(self, source)
+        sources = open_sources(self, source)
         with Progress(progress, "solving") as report:
             found, _, _, doubts = _plexway.solve(
                 self._native, sources, arguments, False, False, report
@@ -286,7 +287,7 @@ class Domain:
             The place of the nearest source in the list; -1 where none is reached.
         """
         arguments = _arguments(threads, executor, radius, visibility, accuracy)
-        located_sources = located(self, sources, none_is_well=True)
+        located_sources = open_sources(self, sources, none_is_well=True)
         if not located_sources:
             n = self.vertex_count
             return np.full(n, _INFINITY, self.dtype), np.full(n, -1, np.int32)
@@ -323,7 +324,7 @@ class Domain:
             unreached or exact.
         """
         arguments = _arguments(None, None, radius, "saddles", accuracy)
-        sources = located(self, source)
+        sources = open_sources(self, source)
         with Progress(progress, "solving") as report:
             found, _, error, doubts = _plexway.solve(
                 self._native, sources, arguments, False, True, report
@@ -334,6 +335,17 @@ class Domain:
             )
         warn(doubts, self)
         return found, error
+
+    def _rows(self, sources: Any, none_is_well: bool = True) -> List[Any]:
+        """Sources that are a row each; without any all vertices, masked or not."""
+        if sources is None:
+            return located(self, np.arange(self.vertex_count), none_is_well)
+        return open_sources(self, sources, none_is_well)
+
+    def _number(self, dtype: Any, accuracy: AccuracyLike) -> np.dtype[Any]:
+        if dtype is not None:
+            return np.dtype(dtype)
+        return np.dtype(np.float64) if accuracy == "exact" else self.dtype
 
     def distances(
         self,
@@ -362,7 +374,8 @@ class Domain:
         out : ndarray of float32 or float64, shape (k, n), optional
             Where to put them, such as an `numpy.memmap`.
         dtype : float32 or float64, optional
-            Of the result where there is no `out`; that of the domain by default.
+            Of the result where there is no `out`; that of the domain by default, and float64 with
+            'exact'.
         accuracy, radius, executor, visibility, progress
             As in `distance`.
 
@@ -378,13 +391,12 @@ class Domain:
         `pairs`.
         """
         arguments = _arguments(threads, executor, radius, visibility, accuracy, many=True)
-        every = np.arange(self.vertex_count) if sources is None else sources
-        located_sources = located(self, every, none_is_well=True)
+        located_sources = self._rows(sources)
         columns = columns_of(self, columns)
         width = self.vertex_count if columns is None else np.size(columns)
         shape = (len(located_sources), width)
         if out is None:
-            out = np.empty(shape, self.dtype if dtype is None else np.dtype(dtype))
+            out = np.empty(shape, self._number(dtype, accuracy))
         elif not isinstance(out, np.ndarray):
             raise TypeError(f"out: expected an ndarray, got {type(out).__name__}")
         elif dtype is not None and np.dtype(dtype) != out.dtype:
@@ -436,7 +448,8 @@ class Domain:
         count : int, optional
             A sparse matrix has so many entries a row, the nearest.
         dtype : float16, float32 or float64, optional
-            Of the file; that of the domain by default. Sparse ones have no float16.
+            Of the file; that of the domain by default, and float64 with 'exact'. Sparse ones have
+            no float16.
         block : int
             So many rows are finished together.
         restart : bool
@@ -472,14 +485,13 @@ class Domain:
         elif count is not None:
             raise ValueError("count: only for sparse matrices, .npz or .mtx")
         columns = columns_of(self, columns)
-        number = self.dtype if dtype is None else np.dtype(dtype)
+        number = self._number(dtype, accuracy)
         reach = radius if dense else _INFINITY
         arguments = _arguments(threads, None, reach, visibility, accuracy, many=True)
-        every = np.arange(self.vertex_count) if sources is None else sources
         with Progress(progress, "solving") as report:
             doubts = _plexway.pairs_file(
                 self._native,
-                located(self, every),
+                self._rows(sources, none_is_well=False),
                 columns,
                 file,
                 real(radius, "radius"),
@@ -537,8 +549,7 @@ class Domain:
         columns = columns_of(self, columns)
         width = self.vertex_count if columns is None else np.size(columns)
         arguments = _arguments(threads, None, _INFINITY, "saddles", accuracy, many=True)
-        every = np.arange(self.vertex_count) if sources is None else sources
-        located_sources = located(self, every, none_is_well=True)
+        located_sources = self._rows(sources)
         if not located_sources:
             return csr_matrix((0, width), dtype=self.dtype)
         with Progress(progress, "solving") as report:
@@ -579,7 +590,7 @@ class Domain:
         Field
         """
         arguments = _arguments(threads, None, radius, visibility, accuracy)
-        sources = located(self, source)
+        sources = open_sources(self, source)
         owner: Optional[Array] = None
         sets = [s.points if isinstance(s, _plexway.VertexSet) else [s] for s in sources]
         if any(isinstance(s, _plexway.VertexSet) for s in sources):
@@ -642,7 +653,9 @@ class Domain:
         if accuracy is not None:
             raise ValueError("accuracy: a search by A* goes by its margin")
         ends = [only_place(self, target)]
-        found = _plexway.find_paths(self._native, located(self, source), ends, margin, None)
+        found = _plexway.find_paths(
+            self._native, open_sources(self, source), ends, margin, None
+        )
         return Path(*found[0])
 
     def at(self, source: Any, points: ArrayLike, *, level: str = "neighbours") -> Array:

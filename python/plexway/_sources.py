@@ -242,6 +242,13 @@ def only_place(domain: Any, at: Any) -> Any:
     return place(domain, at)
 
 
+def open_sources(domain: Any, source: Any, none_is_well: bool = False) -> List[Any]:
+    """As `located`; raises UsageError for one that is masked."""
+    found = located(domain, source, none_is_well)
+    domain._native.require_open(found)
+    return found
+
+
 def located(domain: Any, source: Any, none_is_well: bool = False) -> List[Any]:
     """A source, or several, as the library has them: one each.
 

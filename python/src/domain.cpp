@@ -287,6 +287,12 @@ void bind_domain(py::module_& module) {
       .def_property_readonly(
           "all_simplices",
           [](const std::shared_ptr<Domain>& d) { return simplices(d->shape(), py::cast(d)); })
+      .def("require_open",
+           [](const Domain& domain, const std::vector<Source>& sources) {
+             const OpenSimplices* const open = domain.any().open_simplices();
+             if (open == nullptr || domain.options().mask == nullptr) return;
+             for (const Source& source : sources) open->require(source);
+           })
       .def_property_readonly("mask", &given_mask)
       .def_property_readonly("merge",  // None where no vertices were merged
                              [](const Domain& d) {

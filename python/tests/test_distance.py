@@ -250,6 +250,29 @@ def test_masks_by_labels_and_regions(tmp_path):
     assert np.array_equal(px.read(mesh, mask=f"vertices:{closed}").distance(0), truth)
 
 
+def test_sources_behind_a_mask_are_refused():
+    V, F = meshes.grid(6)
+    closed = np.zeros(len(V), bool)
+    closed[7] = True
+    sheet = px.Surface(V, F, mask=~closed)
+    for call in (
+        lambda: sheet.distance(7),
+        lambda: sheet.distance([0, 7]),
+        lambda: sheet.nearest(px.Vertices([7])),
+        lambda: sheet.field(7),
+        lambda: sheet.distances([0, 7]),
+        lambda: sheet.near(7, radius=1.0),
+        lambda: sheet.path(7, 0),
+    ):
+        with pytest.raises(px.UsageError, match="vertex 7 is masked"):
+            call()
+    assert sheet.distances([0], accuracy="exact").dtype == np.float64
+    # All vertices as rows are all of them.
+    rows = sheet.distances()
+    assert np.isinf(np.delete(rows[7], 7)).all() and rows[7, 7] == 0
+    assert sheet.near(radius=1.0).shape == (len(V), len(V))
+
+
 def test_mask():
     # A wall in the middle of the sheet with a gap at the top: the way bends once at its corner.
     n = 20

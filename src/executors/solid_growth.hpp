@@ -254,7 +254,7 @@ class Growth<TetMesh<Real>> {
       if (!(least(vertex, label, point) < most)) continue;
       const auto same = [&](const End& end) { return end.label.chain == label.chain; };
       if (std::none_of(ends_.begin(), ends_.end(), same))
-        ends_.push_back({solver_->source_of(label), vertex, label});
+        ends_.push_back({label.source, vertex, label});
     }
   }
   // No less than that is a vertex' string moved to a point: its length is convex in its end.
@@ -310,7 +310,7 @@ class Growth<TetMesh<Real>> {
     for (std::size_t k = 0; k < around_.size(); ++k) {
       const Index v = around_[k];
       for (const strings::Label& label : solver().labels(v)) {
-        const Index n = label.chain == none ? none : solver_->source_of(label);
+        const Index n = label.source;
         if (n != none && std::exchange(known_[n], turn_) != turn_) visit(n);
       }
       for (const Index w : space_->neighbours(v))

@@ -92,6 +92,22 @@ Source OpenSimplices::inside(const Source& source) const {
   return there;
 }
 
+void OpenSimplices::require(const Source& source) const {
+  const auto check = [&](Index v) {
+    if (v < reached_.size() && !reached(v))
+      throw UsageError("vertex " + std::to_string(v) +
+                       " is masked, or cut off by the mask: no path passes there");
+  };
+  const auto number = [&](Index simplex) { static_cast<void>(numbered(simplex)); };
+  each_place(
+      source,
+      [&](const PointSource& point) {
+        check(point.vertex);
+        if (point.vertex == none && point.simplex != none) number(point.simplex);
+      },
+      check, number);
+}
+
 AnyShape AnyShape::open_part(const Mask& mask) const {
   if (kind() != DomainKind::mixed) support(Purpose::masks, kind()).require();
   check(mask, *this);

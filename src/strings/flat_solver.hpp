@@ -37,13 +37,14 @@ class FlatSolver {
   /// From vertices; false if the expansions ended before it did.
   bool solve(std::span<const FlatRoot> sources, const Limits& limits) {
     known_.assign(space_->vertices(), {});
+    if (sources.size() > 1 && reach_.empty()) measure_reach();
     roots_.assign(sources.begin(), sources.end());
     chains_.clear();
     hints_.clear();
     queue_.clear();
     counts_ = {};
     for (Index n = 0; n < sources.size(); ++n)
-      take(sources[n].vertex, {sources[n].sigma, chains_.root(n), {}});
+      take(sources[n].vertex, {sources[n].sigma, chains_.root(n), sources[n].source, {}, 0});
     while (!queue_.empty()) {
       const Queue::Offer next = queue_.pop();
       if (next.distance > limits.radius) break;
@@ -62,14 +63,11 @@ class FlatSolver {
 
   /// +inf where nothing leads.
   [[nodiscard]] double distance(Index vertex) const { return known_[vertex].best().distance; }
-  [[nodiscard]] Index source(Index vertex) const {
-    const Index chain = known_[vertex].best().chain;
-    return chain == none ? none : roots_[chains_.source(chain)].source;
-  }
+  [[nodiscard]] Index source(Index vertex) const { return known_[vertex].best().source; }
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] std::size_t bytes() const {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    return chains_.bytes() + of(hints_) + of(known_) + of(roots_) + queue_.bytes();
+    return chains_.bytes() + of(hints_) + of(known_) + of(roots_) + of(reach_) + queue_.bytes();
   }
 
  private:
@@ -103,8 +101,24 @@ class FlatSolver {
   };
   enum class Outcome { free, longer, stuck };
 
+  void measure_reach() {
+    for (Index v = 0; v < space_->vertices(); ++v) {
+      double longest = 0;
+      for (const Index w : space_->neighbours(v)) {
+        const Point way = minus(space_->point(w), space_->point(v));
+        longest = std::max(longest, std::sqrt(inner(way, way)));
+      }
+      reach_.push_back(Spread::nearest * longest);
+    }
+  }
+  [[nodiscard]] double limit(Index vertex, Index source, const Point& last, double length) const {
+    return known_[vertex].limit(source, last, spread(vertex), length);
+  }
+  [[nodiscard]] Spread spread(Index vertex) const {
+    return {behind, reach_.empty() ? 0 : reach_[vertex]};
+  }
   void take(Index vertex, const Label& label) {
-    if (!known_[vertex].take(label, behind)) return;
+    if (!known_[vertex].take(label, spread(vertex))) return;
     ++counts_.labels;
     queue_.push({label.distance, vertex, label.chain});
   }
@@ -147,7 +161,8 @@ class FlatSolver {
     if (at.knows(label.chain)) return;
     // The length of a chain is convex in where it ends.
     const Point way = minus(space_->point(to), space_->point(from));
-    if (label.distance + inner(label.last, way) >= at.limit(behind, label.last)) return;
+    const double least = label.distance + inner(label.last, way);
+    if (least >= limit(to, label.source, label.last, least)) return;
     const double edge = std::sqrt(inner(way, way));
     direct_ = (label.distance + edge) * (1 + rounding);
     from_ = from;
@@ -164,8 +179,7 @@ class FlatSolver {
     if (outcome != Outcome::longer) outcome = past_rims(attempt_, to, outcome);
     settled(outcome);
     // Where it was blocked it may come past on another side from another vertex.
-    if (outcome != Outcome::stuck && !attempt_.touched && at.best().chain != none)
-      at.remember(label.chain);
+    if (outcome != Outcome::stuck && !attempt_.touched && !at.empty()) at.remember(label.chain);
     if (shorter) return;
     for (const auto& [vertex, gate] : space_->gates_at(from)) {
       if (!base_.bends.empty() && base_.bends.back().face == gate) continue;
@@ -176,10 +190,11 @@ class FlatSolver {
     }
     if (shorter) return;
     // On from the vertex itself, along the edge.
-    const Label on = {label.distance + edge, none, unit(way)};
-    if (!(on.distance < at.limit(behind, on.last))) return;
+    Label on = {label.distance + edge, none, label.source, unit(way), edge};
+    if (!(on.distance < limit(to, on.source, on.last, on.distance))) return;
     roots_.push_back({from, label.distance, roots_[base_.root].source});
-    take(to, {on.distance, chains_.root(static_cast<Index>(roots_.size() - 1)), on.last});
+    on.chain = chains_.root(static_cast<Index>(roots_.size() - 1));
+    take(to, on);
   }
 
   // Pulled, bends dropped and put in until all legs are free; no further if it is of no use, or as
@@ -191,7 +206,7 @@ class FlatSolver {
       if (drop_lifted(a, to)) continue;
       const double length = roots_[a.root].sigma + a.length;
       if (!(a.length < least) || !(length < direct_) ||
-          !(length < known_[to].limit(behind, last_leg(a))))
+          !(length < limit(to, roots_[a.root].source, last_leg(a), length)))
         return Outcome::longer;
       const std::size_t leg = blocked(a, to);
       if (leg == a.legs.size()) return Outcome::free;
@@ -326,7 +341,9 @@ class FlatSolver {
       hints_[chain] = bend.at;
     }
     known_[to].remember(chain);
-    take(to, {roots_[a.root].sigma + a.length, chain, last_leg(a)});
+    const Point leg = minus(a.to, a.corner(a.bends.size()));
+    take(to, {roots_[a.root].sigma + a.length, chain, roots_[a.root].source, last_leg(a),
+              std::sqrt(inner(leg, leg))});
   }
 
   const FlatSpace<N>* space_;
@@ -335,6 +352,7 @@ class FlatSolver {
   Chains chains_;
   std::vector<Along> hints_;  // of a chain: where its last bend was at last
   std::vector<VertexLabelsIn<Point>> known_;
+  std::vector<double> reach_;  // of vertices: their longest edge; none from one source
   Queue queue_;
   Attempt base_, attempt_, other_;
   Index from_ = none;  // the vertex that offers

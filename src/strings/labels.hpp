@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include <plexway/common/ids.hpp>
@@ -26,8 +28,9 @@ double cosine_of(const std::array<double, N>& a, const std::array<double, N>& b)
 template <class P>
 struct LabelIn {
   double distance = std::numeric_limits<double>::infinity();
-  Index chain = none;
-  P last = {};  ///< its last leg's direction, unit: the field's gradient
+  Index chain = none, source = none;
+  P last = {};     ///< its last leg's direction, unit: the field's gradient
+  double leg = 0;  ///< and the time that it takes
 };
 using Label = LabelIn<Point>;
 
@@ -72,20 +75,42 @@ struct Limits {
   std::function<void(std::size_t, double)> progress;
 };
 
-/// A vertex keeps the shortest strings that come to it from different sides: one that is not much
-/// longer than the shortest may be the shortest of a neighbour.
+/// Which strings of a vertex are of use, in time.
+struct Spread {
+  /// So near to a corner, of the longest edge there, is every point of a triangle that is nearest
+  /// to it: where it is acute the circle's centre is no farther, else no point of the longest side.
+  static constexpr double nearest = .7072;
+
+  double behind;        ///< of one source the second is at most so much longer than the first
+  double reach;         ///< so far around the vertex others are kept that may be the nearest there
+  double cosine = .99;  ///< between the last legs of two strings of one source
+};
+
+/// A vertex keeps the shortest strings that come to it from different sides, two of a source: one
+/// that is not much longer than the shortest may be the shortest of a neighbour. Of other sources
+/// it keeps all that may be the nearest within reach. In a convex solid all vertices find theirs by
+/// that: a source that is the nearest at one is so all the way from it, thus kept at the nearest
+/// corner of each face that the way passes, and corners of faces in turn share edges.
 template <class P>
 struct VertexLabelsIn {
   using Label = LabelIn<P>;
-  static constexpr std::size_t most = 2;
   static constexpr std::size_t remembered = 6;
-  static constexpr double same_side = .99;  ///< cosine between the last legs of two strings
-  std::array<Label, most> labels;           ///< by their distance
-  std::array<Index, remembered> tried;      ///< chains of late
+  std::vector<Label> labels;            ///< by their distance
+  std::array<Index, remembered> tried;  ///< chains of late
   Index next = 0;
 
   VertexLabelsIn() { tried.fill(none); }
-  [[nodiscard]] const Label& best() const { return labels[0]; }
+  void clear() {
+    labels.clear();
+    tried.fill(none);
+    next = 0;
+  }
+  [[nodiscard]] bool empty() const { return labels.empty(); }
+  /// +inf long, and of no chain, if there is none.
+  [[nodiscard]] const Label& best() const {
+    static const Label unknown;
+    return labels.empty() ? unknown : labels[0];
+  }
   /// The label, if it is still one of the vertex.
   [[nodiscard]] const Label* find(Index chain, double distance) const {
     for (const Label& l : labels)
@@ -103,33 +128,57 @@ struct VertexLabelsIn {
     tried[next] = chain;
     next = (next + 1) % remembered;
   }
-  /// Strings as long as this, that end in this direction, are of no use.
-  [[nodiscard]] double limit(double behind, const P& last, double cosine = same_side) const {
-    double limit = std::min(best().distance + behind, labels[most - 1].distance);
-    for (const Label& l : labels)
-      if (cosine_of(l.last, last) >= cosine) limit = std::min(limit, l.distance);
+  /// Strings of a source as long as this, that end in this direction, are of no use; 0 for any
+  /// direction. Not more exact than needed for one of a length.
+  [[nodiscard]] double limit(Index source, const P& last, const Spread& spread,
+                             double length) const {
+    double limit = std::numeric_limits<double>::infinity();
+    bool second = false;
+    for (const Label& l : labels) {
+      if (limit <= length || limit <= l.distance) break;
+      limit = std::min(limit, l.distance + (l.source == source ? own_lead(l, last, spread, second)
+                                                               : lead(l, last, spread.reach)));
+      second = second || l.source == source;
+    }
     return limit;
   }
   /// Takes a string; false if it is of no use.
-  bool take(const Label& label, double behind, double cosine = same_side) {
-    if (!(label.distance < limit(behind, label.last, cosine))) return false;
-    // Those that are longer and alike, or too long now, make room.
-    std::array<Label, most> kept;
+  bool take(const Label& label, const Spread& spread) {
+    if (!(label.distance < limit(label.source, label.last, spread, label.distance))) return false;
     std::size_t n = 0;
-    bool placed = false;
-    const double longest = std::min(label.distance, best().distance) + behind;
-    for (const Label& l : labels) {
-      if (!placed && !(l.distance < label.distance)) {
-        placed = true;
-        if (n < most) kept[n++] = label;
-      }
-      const bool after =
-          placed && (l.chain == label.chain || cosine_of(l.last, label.last) >= cosine);
-      if (n < most && l.chain != none && !after && l.distance < longest) kept[n++] = l;
+    while (n < labels.size() && labels[n].distance < label.distance) ++n;
+    labels.insert(labels.begin() + static_cast<std::ptrdiff_t>(n), label);
+    // Those that are of no use now make room.
+    const auto is_own = [&](const Label& l) { return l.source == label.source; };
+    const Label& first = *std::find_if(labels.begin(), labels.end(), is_own);
+    const double longest = first.distance + spread.behind;
+    bool second = &first != &labels[n];
+    ++n;
+    for (std::size_t k = n; k < labels.size(); ++k) {
+      const Label l = labels[k];
+      const bool own = is_own(l);
+      if (own && (l.chain == label.chain || !(l.distance < longest))) continue;
+      if (!(l.distance < label.distance + (own ? own_lead(label, l.last, spread, second)
+                                               : lead(label, l.last, spread.reach))))
+        continue;
+      second = second || own;
+      labels[n++] = l;
     }
-    if (!placed && n < most) kept[n] = label;
-    labels = kept;
+    labels.resize(n);
     return true;
+  }
+
+ private:
+  /// By how much strings of one source that are of use may be longer than one of its two.
+  static double own_lead(const Label& own, const P& other, const Spread& spread, bool second) {
+    return second || cosine_of(own.last, other) >= spread.cosine ? 0 : spread.behind;
+  }
+  /// And of another source: by as much as they may get nearer within reach at most. A string's
+  /// length grows as its last leg's, the other's is convex.
+  static double lead(const Label& own, const P& other, double reach) {
+    if (cosine_of(other, other) == 0 || own.leg <= reach / 2) return 2 * reach;
+    const double apart = std::sqrt(std::max(0., 2 - 2 * cosine_of(own.last, other)));
+    return std::min(2., apart + reach / (2 * own.leg)) * reach;
   }
 };
 

@@ -150,7 +150,7 @@ Solver::Outcome Solver::settle(Attempt& a, Index to, double least) {
     if (rearrange(a, to, useless)) continue;
     const double found = length(a);
     if (useless || !(found < least + offset(a) && found < direct_ &&
-                     found * (1 + 1e-12) < limit(to, last_leg(a))))
+                     found * (1 + 1e-12) < limit(to, roots_[a.root].source, last_leg(a), found)))
       return Outcome::longer;
     const std::size_t leg = blocked(a, to);
     if (leg + 1 == a.string.knots.size()) return Outcome::free;

@@ -6,23 +6,24 @@
 
 namespace plexway::strings {
 
-Solver::Solver(const MediaSpace& space)
-    : space_(&space),
-      plain_(space.is_plain()),
-      // Others may have come through other media.
-      other_side_(space.media().size() > 1 ? 1 - 1e-10 : VertexLabels::same_side) {
-  if (plain_) return;
-  reach_.assign(space.nodes() + 1, unreached);
-  for (Index n = 0; n < space.nodes(); ++n) {
-    const Index p = space.point_of(n), m = space.medium_of(n);
-    if (space.nodes_at(p).size() < 2) continue;
+Solver::Solver(const MediaSpace& space) : space_(&space), plain_(space.is_plain()) {
+  // Others may have come through other media.
+  if (space.media().size() > 1) other_side_ = 1 - 1e-10;
+  if (!plain_) measure_reach();
+}
+
+void Solver::measure_reach() {
+  reach_.assign(space_->nodes() + 1, 0);
+  for (Index n = 0; n < space_->nodes(); ++n) {
+    const Index p = space_->point_of(n), m = space_->medium_of(n);
     double longest = 0;
-    for (const Index w : space.neighbours(n)) {
-      const Index q = space.media()[m].points[w];
-      longest = std::max(longest, norm(space.point(q) - space.point(p)));
+    for (const Index w : space_->neighbours(n)) {
+      const Index q = plain_ ? w : space_->media()[m].points[w];
+      longest = std::max(longest, norm(space_->point(q) - space_->point(p)));
     }
     reach_[n] = longest * slowness(m);
   }
+  reach_.back() = *std::max_element(reach_.begin(), reach_.end());
 }
 
 void Solver::clear() {
@@ -36,7 +37,7 @@ void Solver::clear() {
     if (!plain_) best_.assign(space_->points() + 1, unreached);
   }
   for (const Index n : reached_) {
-    nodes_[n] = {};
+    nodes_[n].clear();
     if (!plain_) best_[space_->point_of(n)] = unreached;
   }
   reached_.clear();
@@ -45,6 +46,7 @@ void Solver::clear() {
 bool Solver::add(std::span<const Source> sources, const Limits& limits) {
   const std::size_t before = counts_.expansions, first = sources_.size();
   for (const Source& s : sources) sources_.push_back({s.at, s.offset});
+  if (sources_.size() > 1 && reach_.empty()) measure_reach();
   queue_.clear();
   base_node_ = none;
   for (std::size_t n = 0; n < sources.size(); ++n) seed(static_cast<Index>(first + n), sources[n]);
@@ -57,7 +59,7 @@ bool Solver::add(std::span<const Source> sources, const Limits& limits) {
     }
     const Label* found = nodes_[next.vertex].find(next.chain, next.distance);
     if (found == nullptr) continue;
-    if (!plain_ && next.distance > best_[point_of(next.vertex)] + reach_[next.vertex]) continue;
+    if (!plain_ && next.distance > longest(next.vertex)) continue;
     const std::size_t expansions = counts_.expansions - before;
     if (expansions >= limits.expansions) return false;
     if (limits.progress && expansions % 512 == 0) limits.progress(expansions, next.distance);
@@ -94,22 +96,22 @@ void Solver::seed(Index number, const Source& source) {
   };
   if (source.point != none)
     for (const Index n : space_->nodes_at(source.point))
-      take(n, {source.offset, root(space_->medium_of(n), n, none, zero), zero});
+      take(n, {source.offset, root(space_->medium_of(n), n, none, zero), number, zero, 0});
   for (const Inside& in : source.inside) {
     if (source.point != none) break;
     const Index chain = root(in.medium, none, in.simplex, in.beside);
     for (const Index p : in.corner) {
       if (p == none) continue;
       const Point leg = space_->point(p) - source.at;
-      take(space_->node(p, in.medium),
-           {source.offset + slowness(in.medium) * norm(leg), chain, unit(leg)});
+      const double length = slowness(in.medium) * norm(leg);
+      take(space_->node(p, in.medium), {source.offset + length, chain, number, unit(leg), length});
     }
   }
 }
 
 void Solver::take(Index node, const Label& label) {
-  const bool first = nodes_[node].best().chain == none;
-  if (!nodes_[node].take(label, behind_ * slowness(medium_of(node)), other_side_)) return;
+  const bool first = nodes_[node].empty();
+  if (!nodes_[node].take(label, spread(node))) return;
   if (first && node != space_->nodes()) reached_.push_back(node);
   ++counts_.labels;
   if (!plain_) {
@@ -165,7 +167,7 @@ void Solver::offer_edge(Index node, const Label& label, Index to, double found) 
   const auto& own = space_->media()[medium_of(node)];
   const bool may_gain = medium_of(node) == medium_of(to) && own.room && !own.room->places().empty();
   const bool shorter = length < distance(point_of(to)) * (1 - rounding);
-  if (may_gain || (shorter && length < limit(to, {0, 0, 0})))
+  if (may_gain || (shorter && length < limit(to, label.source, {0, 0, 0}, length)))
     if (attempt_corner(node, label, to) == Outcome::free) accept(attempt_, to);
 }
 
@@ -226,9 +228,11 @@ Solver::Outcome Solver::offer(Index from, const Label& label, Index to, Index do
     if (known.knows(chain)) return Outcome::longer;
     // The length of a chain is convex in where it ends.
     const double slope = slowness(medium_of(from)) * dot(label.last, at(to) - at(from));
-    if (label.distance + slope >= limit(to, label.last)) return Outcome::longer;
+    const double least = label.distance + slope;
+    if (least >= limit(to, label.source, label.last, least)) return Outcome::longer;
   } else {
-    if (bound(from, label, to, door) >= limit(to, {0, 0, 0})) return Outcome::longer;
+    const double least = bound(from, label, to, door);
+    if (least >= limit(to, label.source, {0, 0, 0}, least)) return Outcome::longer;
     chain = chains_.with(chain, door);
     hints_.resize(chains_.size(), {});
     if (known.knows(chain)) return Outcome::longer;
@@ -237,8 +241,7 @@ Solver::Outcome Solver::offer(Index from, const Label& label, Index to, Index do
   const Outcome outcome = attempt(from, label, to, door);
   if (outcome == Outcome::free) accept(attempt_, to);
   // Where it was blocked it may come past on another side from another node.
-  if (outcome != Outcome::stuck && !attempt_.touched && known.best().chain != none)
-    known.remember(chain);
+  if (outcome != Outcome::stuck && !attempt_.touched && !known.empty()) known.remember(chain);
   // One that is longer than the edge is no reason not to go there.
   return outcome == Outcome::longer && !(length(attempt_) < direct_) ? Outcome::stuck : outcome;
 }
@@ -282,7 +285,9 @@ void Solver::accept(const Attempt& a, Index to) {
     hints_[chain] = {knots[k].t, knots[k].u};
   }
   nodes_[to].remember(chain);
-  take(to, {length(a), chain, last_leg(a)});
+  const std::size_t last = a.string.bends();
+  take(to, {length(a), chain, roots_[a.root].source, last_leg(a),
+            knots[last].slowness * norm(knots[last + 1].at - knots[last].at)});
 }
 
 std::pair<Index, const Label*> Solver::best(Index point) const {
@@ -305,7 +310,7 @@ void Solver::attach(const Point& at, std::span<const Inside> inside,
   const auto number = static_cast<Index>(space_->nodes());
   attached_ = at;
   base_node_ = none;  // may be the one that was attached before
-  nodes_[number] = {};
+  nodes_[number].clear();
   if (!plain_) best_[space_->points()] = unreached;
   Index medium = inside.empty() ? 0 : inside[0].medium;
   VertexLabels shortest;
@@ -318,16 +323,17 @@ void Solver::attach(const Point& at, std::span<const Inside> inside,
            root != roots_.end() && root->source == s; ++root) {
         if (root->simplex != in.simplex) continue;
         const Point leg = at - sources_[s].at;
-        take(number, {sources_[s].offset + slowness(in.medium) * norm(leg),
-                      chains_.root(static_cast<Index>(root - roots_.begin())), unit(leg)});
+        const double length = slowness(in.medium) * norm(leg);
+        take(number,
+             {sources_[s].offset + length, chains_.root(static_cast<Index>(root - roots_.begin())),
+              s, unit(leg), length});
       }
     }
     for (const Index p : in.corner) {
       if (p == none) continue;
       for (const Index n : space_->nodes_at(p)) {
         from_ = n;
-        for (const Label& label : VertexLabels(nodes_[n]).labels) {
-          if (label.chain == none) continue;
+        for (const Label& label : nodes_[n].labels) {
           if (medium_of(n) != in.medium)
             offer_through(n, label, number);
           else if (const Outcome o = offer(n, label, number, none); o != Outcome::longer)
@@ -339,7 +345,7 @@ void Solver::attach(const Point& at, std::span<const Inside> inside,
       shortest = nodes_[number];
       medium = in.medium;
     }
-    nodes_[number] = {};
+    nodes_[number].clear();
   }
   nodes_[number] = shortest;
   attached_medium_ = medium;
@@ -359,7 +365,7 @@ double Solver::moved(Index node, const Label& label, const Point& at, const Poin
       return source.offset + medium.slowness * norm(at - source.at);
   }
   const auto number = static_cast<Index>(space_->nodes());
-  nodes_[number] = {};
+  nodes_[number].clear();
   if (!plain_) best_[space_->points()] = unreached;
   attached_ = at;
   attached_beside_ = beside;
@@ -386,8 +392,10 @@ Solver::Path Solver::path(Index point) {
 
 std::size_t Solver::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return chains_.bytes() + of(hints_) + of(nodes_) + of(best_) + of(reach_) + of(reached_) +
-         queue_.bytes() + of(left_) + of(sources_) + of(roots_);
+  std::size_t labels = 0;
+  for (const VertexLabels& node : nodes_) labels += of(node.labels);
+  return chains_.bytes() + of(hints_) + of(nodes_) + labels + of(best_) + of(reach_) +
+         of(reached_) + queue_.bytes() + of(left_) + of(sources_) + of(roots_);
 }
 
 }  // namespace plexway::strings

@@ -61,11 +61,10 @@ class Solver {
   /// The nearest source; none where nothing leads.
   [[nodiscard]] Index source(Index point) const {
     const auto [node, label] = best(point);
-    return label == nullptr ? none : source_of(*label);
+    return label == nullptr ? none : label->source;
   }
   /// The strings of a node, the shortest first.
   [[nodiscard]] std::span<const Label> labels(Index node) const { return nodes_[node].labels; }
-  [[nodiscard]] Index source_of(const Label& label) const { return root_of(label).source; }
   /// Takes a point of these simplices, which these sources are in, for one more, numbered
   /// MediaSpace::points(), until the next one.
   void attach(const Point& at, std::span<const Inside> inside, std::span<const Index> sources);
@@ -111,6 +110,7 @@ class Solver {
   enum class Outcome { free, longer, stuck };
   using Spot = std::array<double, 2>;
 
+  void measure_reach();
   void seed(Index number, const Source& source);
   void expand(Index node, const Label& label);
   void offer_through(Index node, const Label& label, Index to);
@@ -165,9 +165,19 @@ class Solver {
                                  Index to) const;
   [[nodiscard]] Point toward(const Attempt& a, std::size_t k, std::size_t other, Index to) const;
   [[nodiscard]] bool is_edge(const Attempt& a) const;
-  [[nodiscard]] double limit(Index node, const Point& last) const {
-    const double limit = nodes_[node].limit(behind_ * slowness(medium_of(node)), last, other_side_);
-    return plain_ ? limit : std::min(limit, best_[point_of(node)] + reach_[node]);
+  /// Of a point in several media no string of one is of use that is an edge longer than the best.
+  [[nodiscard]] double longest(Index node) const {
+    const Index p = point_of(node);
+    return p == space_->points() || space_->nodes_at(p).size() < 2 ? unreached
+                                                                   : best_[p] + reach_[node];
+  }
+  [[nodiscard]] Spread spread(Index node) const {
+    return {behind_ * slowness(medium_of(node)),
+            reach_.empty() ? 0 : Spread::nearest * reach_[node], other_side_};
+  }
+  [[nodiscard]] double limit(Index node, Index source, const Point& last, double length) const {
+    const double limit = nodes_[node].limit(source, last, spread(node), length);
+    return plain_ ? limit : std::min(limit, longest(node));
   }
   [[nodiscard]] double direct(Index from, const Label& label, Index to) const {
     return label.distance + slowness(medium_of(to)) * norm(at(to) - at(from));
@@ -203,8 +213,9 @@ class Solver {
   Chains chains_;
   std::vector<Spot> hints_;  // of a chain: where its last place was bent at last
   std::vector<VertexLabels> nodes_;
-  std::vector<double> best_;                   // of points, unless they are the nodes
-  std::vector<double> reach_;                  // of nodes, likewise: the time of their longest edge
+  std::vector<double> best_;  // of points, unless they are the nodes
+  std::vector<double>
+      reach_;  // of nodes: the time of their longest edge; none from one source in one solid
   std::vector<Index> reached_;                 // nodes
   std::vector<std::pair<Index, Index>> left_;  // edges for the end
   Queue queue_;
@@ -223,7 +234,7 @@ class Solver {
   Index attached_medium_ = 0;
   double direct_ = 0;  // on from there along the edge: a string that is offered is no longer
   double behind_ = .5;
-  double other_side_;  // cosine between last legs that differ
+  double other_side_ = .99;  // cosine between last legs that differ
   Counts counts_;
 };
 

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include <plexway/simplicial/kuhn_grid.hpp>
 #include <plexway/solid/tet_mesh.hpp>
 
 #include "data/crack_plans.hpp"
@@ -189,7 +190,7 @@ TEST_CASE("strings over plans of cells are exact") {
 }
 
 TEST_CASE("strings from several sources with offsets are the least of single fields") {
-  for (const std::size_t count : {2u, 5u, 20u}) {
+  for (const std::size_t count : {2u, 5u, 20u, 100u}) {
     Random random(3);
     for (int plan = 0; plan < 25; ++plan) {
       const CellPlan cells(random, .28);
@@ -207,6 +208,34 @@ TEST_CASE("strings from several sources with offsets are the least of single fie
       CAPTURE(count, plan);
       CHECK(more < 1e-12);
       CHECK(less < 1e-12);
+    }
+  }
+}
+
+TEST_CASE("all vertices of a side are sources of a cube whose vertices are moved") {
+  constexpr std::size_t cells = 8;
+  const KuhnGrid<3> grid({cells, cells, cells}, {1., 1., 1.});
+  Random random(7);
+  for (const double thin : {1., .5}) {
+    std::vector<std::array<double, 3>> places;
+    std::vector<Index> side;
+    for (Index v = 0; v < grid.vertex_count(); ++v) {
+      places.push_back(grid.position(v));
+      for (double& x : places.back())
+        if (x > .5 && x < cells - .5) x += .5 * share(random) - .25;
+      if (places.back()[2] == 0) side.push_back(v);
+      places.back()[2] *= thin;
+    }
+    const TetMesh<double> mesh(places, grid.simplices());
+    const auto found = distances(mesh, side);
+    for (std::size_t v = 0; v < places.size(); ++v) {
+      double truth = infinity;
+      for (const Index s : side) {
+        const auto &a = places[v], &b = places[s];
+        truth = std::min(truth, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+      }
+      CAPTURE(thin, v);
+      CHECK(std::abs(found[v] - truth) < 1e-12);
     }
   }
 }

@@ -53,6 +53,9 @@ class OpenSimplices {
   [[nodiscard]] PointSource inside(const PointSource& point) const;
   [[nodiscard]] Source inside(const Source& source) const;
   ///@}
+  /// Throws UsageError for a source at a vertex that no open simplex has, or in a simplex that is
+  /// closed or is not there.
+  void require(const Source& source) const;
   /// Vertices inside of these columns, or of all where there are none; those given if none are
   /// merged.
   [[nodiscard]] std::vector<Index> columns(std::span<const Index> columns) const;

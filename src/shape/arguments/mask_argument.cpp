@@ -92,24 +92,10 @@ template <class Place>
 void require_all(const Mask* mask, const AnyShape& domain, std::span<const Place> places) {
   if (mask == nullptr) return;
   const OpenSimplices open(*mask, domain);
-  const auto check = [&](Index vertex) {
-    if (vertex == none || open.reached(vertex)) return;
-    throw InputError(
-        "--mask: vertex " + std::to_string(vertex) +
-        (mask->closed_vertices()[vertex] != 0 ? " is masked" : " is cut off by the mask") +
-        ": no path passes there");
-  };
-  for (const Place& place : places) {
-    try {
-      static_cast<void>(open.inside(place));
-    } catch (const UsageError& error) {
-      throw InputError(std::string("--mask: ") + error.what());
-    }
-    if constexpr (std::is_same_v<Place, PointSource>)
-      check(place.vertex);
-    else
-      each_place(
-          place, [&](const PointSource& point) { check(point.vertex); }, check, [](Index) {});
+  try {
+    for (const Place& place : places) open.require(place);
+  } catch (const UsageError& error) {
+    throw InputError(std::string("--mask: ") + error.what());
   }
 }
 
