@@ -49,12 +49,7 @@ struct WorkspaceState {
   std::shared_ptr<SolidStrings> strings;          ///< in solids: strings/solid_strings.hpp
   std::vector<Index> corners;                     ///< around one vertex
   std::unique_ptr<LoweringRooms<Real>> lowering;  ///< read_out_edges
-  ///@{
-  /// On mixed domains: one a piece that is propagated on, and what a member of a hinge has offered
-  /// already.
-  std::vector<WorkspaceState> parts;
-  std::vector<Real> offered;
-  ///@}
+  std::vector<WorkspaceState> parts;              ///< on mixed domains: one a piece
   std::shared_ptr<MixedStrings> media;        ///< likewise, by strings: strings/mixed_strings.hpp
   std::shared_ptr<FlatSolve> flat;            ///< flat complexes of two or three dimensions
   std::shared_ptr<FlatStrings> flat_strings;  ///< of four: strings/flat_strings.hpp
@@ -73,7 +68,7 @@ struct WorkspaceState {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     std::size_t of_parts = 0;
     for (const WorkspaceState& part : parts) of_parts += part.bytes();
-    return of_parts + of(offered) + sizeof(*this) + marks.bytes() +
+    return of_parts + sizeof(*this) + marks.bytes() +
            saddles.count * sizeof(SaddleLabel<Real>) + plain.count * sizeof(PlainLabel<Real>) +
            plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() +
            (flat ? flat->workspace.bytes() + of(flat->field.distance) : 0) + of(source) +

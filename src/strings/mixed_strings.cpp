@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include <plexway/error.hpp>
+#include "strings/solid_strings.hpp"
 
 namespace plexway {
 namespace {
@@ -62,16 +62,7 @@ void MixedStrings::solve(const MixedComplex<Real>& domain, std::shared_ptr<const
   for (const PointSource& s : sources)
     sources_.push_back(source_of(*space_, s, inside_[sources_.size()]));
   const double unit = media.unit();
-  strings::Limits limits;
-  limits.radius = options.radius / unit;
-  limits.expansions = options.max_expansions;
-  if (options.progress)
-    limits.progress = [&](std::size_t expansions, double distance) {
-      const std::size_t all = domain.simplex_count();
-      if (!options.progress({expansions, std::min(expansions, all), all, distance * unit}))
-        throw Cancelled("cancelled by the progress callback");
-    };
-  field.complete = solver_->solve(sources_, limits);
+  field.complete = solver_->solve(sources_, limits_of(options, domain.simplex_count(), unit));
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
   const std::size_t vertices = domain.vertex_count();
   field.distance.resize(vertices);

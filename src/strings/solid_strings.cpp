@@ -31,8 +31,6 @@ strings::Inside inside_of(const TetMesh<Real>& mesh, const strings::MediaSpace& 
   return inside;
 }
 
-namespace {
-
 template <class Real>
 strings::Source source_of(const TetMesh<Real>& mesh, const strings::MediaSpace& space,
                           const PointSource& given, strings::Inside& inside) {
@@ -43,8 +41,6 @@ strings::Source source_of(const TetMesh<Real>& mesh, const strings::MediaSpace& 
   if (turned) std::swap(b[2], b[3]);
   return source_in(mesh, space, tet, b, offset, inside);
 }
-
-}  // namespace
 
 template <class Real>
 strings::Source source_in(const TetMesh<Real>& mesh, const strings::MediaSpace& space, Index tet,
@@ -68,6 +64,17 @@ std::shared_ptr<const strings::MediaSpace> space_of(const TetMesh<Real>& mesh) {
   });
 }
 
+strings::Limits limits_of(const PropagateOptions& options, std::size_t simplices, double unit) {
+  strings::Limits limits;
+  limits.radius = options.radius / unit;
+  limits.expansions = options.max_expansions;
+  if (options.progress)
+    limits.progress = [&options, simplices, unit](std::size_t expansions, double distance) {
+      strings::report(options, expansions, simplices, distance * unit);
+    };
+  return limits;
+}
+
 template <class Real>
 void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
                          const PropagateOptions& options, DistanceField<Real>& field) {
@@ -88,14 +95,7 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
     sources_.push_back(source_of(mesh, *space_, s, tets_[n]));
   }
   std::sort(inside_.begin(), inside_.end());
-  strings::Limits limits;
-  limits.radius = options.radius / mesh.unit();
-  limits.expansions = options.max_expansions;
-  if (options.progress)
-    limits.progress = [&](std::size_t expansions, double distance) {
-      strings::report(options, expansions, mesh.tet_count(), distance * mesh.unit());
-    };
-  field.complete = solver_->solve(sources_, limits);
+  field.complete = solver_->solve(sources_, limits_of(options, mesh.tet_count(), mesh.unit()));
   strings::to_field(mesh, *solver_, sources, options.radius, field);
   field.accuracy = Accuracy::accurate();
   field.statistics.expansions = solver_->counts().expansions;
@@ -143,6 +143,10 @@ template strings::Inside inside_of(const TetMesh<float>&, const strings::MediaSp
                                    const Point&);
 template strings::Inside inside_of(const TetMesh<double>&, const strings::MediaSpace&, Index,
                                    const Point&);
+template strings::Source source_of(const TetMesh<float>&, const strings::MediaSpace&,
+                                   const PointSource&, strings::Inside&);
+template strings::Source source_of(const TetMesh<double>&, const strings::MediaSpace&,
+                                   const PointSource&, strings::Inside&);
 template strings::Source source_in(const TetMesh<float>&, const strings::MediaSpace&, Index,
                                    const std::array<double, 4>&, double, strings::Inside&);
 template strings::Source source_in(const TetMesh<double>&, const strings::MediaSpace&, Index,
