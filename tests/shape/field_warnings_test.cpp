@@ -8,8 +8,15 @@
 #include <utility>
 #include <vector>
 
+#include <plexway/executors.hpp>
+#include <plexway/mixed/mixed_complex.hpp>
 #include <plexway/shape/complex.hpp>
 #include <plexway/shape/warnings.hpp>
+#include <plexway/simplicial/kuhn_grid.hpp>
+#include <plexway/solid/tet_mesh.hpp>
+#include <plexway/solve.hpp>
+#include <plexway/surface/triangle_mesh.hpp>
+#include <plexway/wireframe/wireframe.hpp>
 
 #include "data/crack_plans.hpp"
 
@@ -314,7 +321,7 @@ TEST_CASE("paths that strings refract and bend around edges of a solid need no w
     BuildOptions building{.precision = Precision::float64};
     metric::SimplexSpeeds speeds{.speed = speed, .agreement = {metric::Sides::own}};
     building.lengths = std::make_shared<const MeasuredLengths>(shape.measure(speeds));
-    return warnings(shape, building, Accuracy::fast(), "around which paths bend, and faces");
+    return warnings(shape, building, Accuracy::fast(), "paths go from part to part at vertices");
   };
   const auto whole = [](std::size_t, std::size_t, std::size_t) { return true; };
   const auto pierced = [](std::size_t x, std::size_t y, std::size_t) {
@@ -350,46 +357,35 @@ TEST_CASE("paths that strings refract and bend around edges of a solid need no w
   CHECK_FALSE(with_skin(notched, 2));
   CHECK_FALSE(with_skin(notched, 1));
   CHECK_FALSE(with_skin(whole, 2));
-  CHECK(with_skin(notched, 2, 5, .05));  // a skin of many facets: labels solve it
+  CHECK(with_skin(notched, 2, 5, .05));  // a skin of many facets: each part by itself
 }
 
-TEST_CASE("cracks and several sources in mixed domains that strings solve need no warning") {
-  const auto told = [](const AnyDomain& domain, const std::vector<Source>& sources,
-                       const std::string& words) {
-    const AnyField field = domain.solve(Serial{}, sources, {});
-    const auto all = plexway::warnings(domain, field, sources);
-    return std::any_of(all.begin(), all.end(), [&](const Warning& warning) {
-      return warning.text.find(words) != std::string::npos;
+TEST_CASE("a wire or a sheet that is not made of a solid's edges is noted") {
+  const KuhnGrid<3> grid({2, 2, 2}, {1., 1., 1.});
+  std::vector<std::array<double, 3>> positions;
+  for (Index v = 0; v < grid.vertex_count(); ++v) positions.push_back(grid.position(v));
+  const TetMesh<double> solid(positions, grid.simplices());
+  const auto noted = [&](const auto& part, const std::vector<std::array<double, 3>>& places) {
+    MixedComplex<double> complex;
+    const auto block = complex.add(solid, positions);
+    const auto other = complex.add(part, places);
+    CHECK(complex.weld(block, other, 1e-9) == places.size());
+    const auto all = warnings(complex, solve(Serial{}, complex, 0));
+    return std::any_of(all.begin(), all.end(), [](const Warning& warning) {
+      return warning.text.find("1 edge of wires or surfaces leads") != std::string::npos &&
+             !warning.doubtful;
     });
   };
-  const auto prism = [](const std::vector<samples::CrackPlan::Crack>& cracks, bool wired = true) {
-    const samples::CrackPlan plan(8, cracks, 0, [] { return .3; });
-    const auto solid = plan.solid(.38);
-    MixedShape shape;  // with a wire at its first vertex
-    shape.positions.assign(solid.places.begin(), solid.places.end());
-    const auto first = static_cast<Index>(shape.positions.size());
-    shape.positions.push_back({-1, -1, -1});
-    shape.parts = {{0, shape.positions.size(), {{0, first}}, {}, solid.tets}};
-    return AnyDomain(wired ? AnyShape::mixed(shape) : AnyShape::solid(solid.places, solid.tets),
-                     {});
-  };
-  const std::string cracks = "the domain have cracks", several = "paths from several sources bend";
-  const std::vector<Source> one = {PointSource::at(0)};
-  const std::vector<Source> two = {PointSource::at(0), PointSource::at(8)};
-  const AnyDomain slit = prism({{{2, 4}, {6, 4}}});
-  CHECK_FALSE(told(slit, one, cracks));
-  CHECK_FALSE(told(slit, two, several));
-  const AnyDomain many =
-      prism({{{7, 3}, {7, 0}}, {{4, 4}, {2, 4}}, {{4, 6}, {8, 6}}, {{6, 3}, {3, 3}}});
-  CHECK_FALSE(told(many, one, cracks));
-  CHECK_FALSE(told(many, one, several));
-  const AnyDomain alone =
-      prism({{{7, 3}, {7, 0}}, {{4, 4}, {2, 4}}, {{4, 6}, {8, 6}}, {{6, 3}, {3, 3}}}, false);
-  CHECK_FALSE(told(alone, one, cracks));
-  CHECK_FALSE(told(alone, two, several));
-  const AnyDomain whole = prism({});
-  CHECK_FALSE(told(whole, two, cracks));
-  CHECK_FALSE(told(whole, two, several));
+  using Edges = std::vector<std::array<Index, 2>>;
+  const std::vector<std::array<double, 3>> row = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  CHECK_FALSE(noted(Wireframe<double>(row, Edges{{0, 1}, {1, 2}}), row));
+  const std::vector<std::array<double, 3>> ends = {{0, 0, 0}, {2, 0, 0}};
+  CHECK(noted(Wireframe<double>(ends, Edges{{0, 1}}), ends));
+  // A square by the grid's own diagonal, and by the other.
+  const std::vector<std::array<double, 3>> square = {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  using Triangles = std::vector<std::array<Index, 3>>;
+  CHECK_FALSE(noted(TriangleMesh<double>(square, Triangles{{0, 1, 2}, {0, 2, 3}}), square));
+  CHECK(noted(TriangleMesh<double>(square, Triangles{{0, 1, 3}, {1, 2, 3}}), square));
 }
 
 }  // namespace plexway::field_warnings_test

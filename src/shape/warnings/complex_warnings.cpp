@@ -9,7 +9,7 @@
 #include <plexway/domain/domains.hpp>
 
 #include "complexes/simplicial/simplex_notches.hpp"
-#include "shape/warnings/bent_crossings.hpp"
+#include "shape/warnings/mixed_warnings.hpp"
 #include "shape/warnings/sentences.hpp"
 #include "shape/words.hpp"
 
@@ -55,26 +55,6 @@ std::vector<Warning> cloud_warnings(const CloudSummary& cloud, Reader reader,
             "other go over these; " +
             (given.normals_refused ? "" : "normals" + in_file + " " + columns + " or ") +
             "points along the edge where they meet would join them");
-  return warnings;
-}
-
-template <class Real>
-std::vector<Warning> mixed_warnings(const MixedComplex<Real>& complex) {
-  std::vector<Warning> warnings;
-  const auto warning = [&](std::string text) { warnings.push_back({std::move(text)}); };
-  if (const BentCrossings bent = bent_crossings(complex); bent.hinges > 0)
-    warning("solids have " + counted(bent.edges, "edges") +
-            " around which paths bend, and faces or edges where the speed changes: single vertices "
-            "whose paths do both may be up to a sixth too far" +
-            (bent.cracks > 0 ? ", most of all where cracks end on such faces; where cracks join on "
-                               "one, single vertices may be too near, by a quarter at worst"
-                             : ""));
-  // A single crack has two ends.
-  if (const SolidBends bends = solid_bends(complex); bends.cracks > 0 && bends.edges > 2)
-    warning(
-        "solids of the domain have cracks, and " + counted(bends.edges, "edges") +
-        " around which paths bend: single vertices behind several of them may be up to a quarter "
-        "too far");
   return warnings;
 }
 

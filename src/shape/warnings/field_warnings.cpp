@@ -11,7 +11,6 @@
 
 #include "complexes/simplicial/simplex_notches.hpp"
 #include "shape/shape_state.hpp"
-#include "shape/warnings/bent_crossings.hpp"
 #include "shape/warnings/cloud_rims.hpp"
 #include "shape/warnings/sentences.hpp"
 #include "shape/warnings/survey.hpp"
@@ -35,16 +34,6 @@ std::vector<std::size_t> reached_sources(const Distance& distance, const SourceL
       for (const Index v : set->vertices) take(v);
   }
   return {at.begin(), at.end()};
-}
-
-// More than one point, or vertex of a set?
-bool are_several(const SourceList& sources) {
-  std::size_t count = sources.points().size();
-  for (const Source& source : sources.sources()) {
-    count += std::holds_alternative<PointSource>(source) ? 1 : 0;
-    if (const auto* set = std::get_if<VertexSource>(&source)) count += set->vertices.size();
-  }
-  return count > 1;
 }
 
 bool are_points(const SourceList& sources) {
@@ -287,11 +276,6 @@ std::vector<Warning> field_warnings(const AnyDomain& solver, const AnyField& fie
   }
   if (std::string rims = rims_sentence(solver, largest(field)); !rims.empty())
     warning(std::move(rims));
-  if (const std::size_t edges = are_several(sources) ? solid_bends(solver).edges : 0; edges > 0)
-    warning(
-        "paths from several sources bend around " + counted(edges, "edges") +
-        " of solids: single vertices between what is nearest to the one and to the other "
-        "may be up to a quarter too far; the least of a field from each source is more accurate");
   FieldWork work = work_of(solver, field.statistics(), field.accuracy());
   work.complete = field.complete();
   work.in_space = !domain.positions().empty();
