@@ -33,9 +33,9 @@ void solve_simplices(const E& executor, const Domain& domain, std::span<const Po
     propagation.seed(sources[n], static_cast<Index>(n));
   propagation.run();
   read_out_simplices(domain, sources, propagation.rule(), front, workspace);
-  // The policies that study the step itself show it as it is, on surfaces too.
+  // On complexes the policies that study the step itself show it as it is, as on surfaces.
   std::size_t raised = 0;
-  if (options.visibility == Visibility::saddles) {
+  if (Domain::kind == DomainKind::solid || options.visibility == Visibility::saddles) {
     relax_edges(domain, workspace);
     if constexpr (requires { domain.coordinates(0); })
       raised = raise_to_lines(domain, sources, workspace);

@@ -156,9 +156,14 @@ class PlainSimplexRule : kernel::HingeKernel<typename Cells::Real, Cells::N - 1>
     else
       return corner_of(s, vertex_of(t, i));
   }
-  static constexpr Index edge_between(Index i, Index j) {
-    return i < j ? j * (j - 1) / 2 + i : i * (i - 1) / 2 + j;
-  }
+  static constexpr auto edges = [] {
+    std::array<std::array<unsigned char, N + 1>, N + 1> edge{};
+    unsigned char number = 0;
+    for (std::size_t j = 1; j <= N; ++j)
+      for (std::size_t i = 0; i < j; ++i) edge[i][j] = edge[j][i] = number++;
+    return edge;
+  }();
+  static constexpr Index edge_between(Index i, Index j) { return edges[i][j]; }
 
   [[nodiscard]] Real distance_or_inf(Index s) const {
     return front_->reached(s) ? distance(s) : std::numeric_limits<Real>::infinity();
