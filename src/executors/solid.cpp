@@ -3,7 +3,6 @@
 #include "executors/run.hpp"
 #include "executors/solve_solid.hpp"
 #include "executors/supported.hpp"
-#include "executors/threads/owned_scheduler.hpp"
 #include "strings/solid_strings.hpp"
 
 namespace plexway {

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "complexes/test_solids.hpp"
 #include "folder.hpp"
 #include "mpi/running.hpp"
 #include "mpi/surfaces.hpp"
@@ -20,20 +19,6 @@ namespace pieces_test {
 using namespace mpi_testing;
 
 namespace {
-
-std::string blocks() {
-  const auto s = plexway::testing::l_shape(24);
-  std::ostringstream text;
-  text << "MeshVersionFormatted 2\nDimension 3\nVertices\n" << s.positions.size() << '\n';
-  for (const auto& p : s.positions) text << p[0] << ' ' << p[1] << ' ' << p[2] << " 0\n";
-  text << "Tetrahedra\n" << s.tets.size() << '\n';
-  for (const auto& t : s.tets) {
-    for (const auto v : t) text << v + 1 << ' ';
-    text << "0\n";
-  }
-  text << "End\n";
-  return text.str();
-}
 
 // A net whose knots are not quite in rows.
 std::string net() {
@@ -92,8 +77,7 @@ Words from(const std::string& input, const Words& more) {
 TEST_CASE("ranks solve one field, bit for bit what threads solve") {
   if (!mpirun()) return;
   const testing::Folder folder;
-  const std::string surface = folder.write("hills.off", hills()),
-                    solid = folder.write("blocks.mesh", blocks());
+  const std::string surface = folder.write("hills.off", hills());
   const auto same = [&](const std::string& input, const Words& options,
                         const std::vector<std::pair<int, int>>& schedulers) {
     const std::string alone = folder.at("alone.npy"), together = folder.at("ranks.npy");
@@ -128,7 +112,6 @@ TEST_CASE("ranks solve one field, bit for bit what threads solve") {
   };
   same(surface, {"--accuracy", "fast"}, {{1, 1}, {2, 2}, {4, 1}});
   same(surface, {"--precision", "double"}, {{2, 1}, {4, 2}});
-  same(solid, {"--accuracy", "fast"}, {{2, 2}, {4, 1}});
   same(folder.write("net.obj", net()), {}, {{1, 2}, {2, 1}, {4, 2}});
 }
 
