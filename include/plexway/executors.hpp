@@ -35,9 +35,9 @@ struct Serial {
 
 /// Several threads of one process.
 ///
-/// The step is that of Serial. Surfaces, clouds, solids and wireframes are cut into pieces, which
-/// exchange labels or windows over their borders; pieces of a mixed domain, as they are, take their
-/// turns at once, with Serial's bits; one field of a complex of any dimension is one thread's.
+/// The step is that of Serial. Surfaces, clouds and wireframes are cut into pieces, which exchange
+/// labels or windows over their borders; pieces of a mixed domain, as they are, take their turns at
+/// once, with Serial's bits; one field of a solid or of a complex of any dimension is one thread's.
 /// Either way the result does not depend on the number of threads or on their timing: it is the
 /// same to the last bit, also where a propagation is cut short by max_expansions. Exact windows, a
 /// domain of a single piece and distances in wireframes have Serial's bits. Else it differs where
@@ -45,7 +45,7 @@ struct Serial {
 ///
 /// Cost: on one thread 1.05 to 1.2 times that of Serial in pieces, and more. Many fields of one
 /// domain are best had by `solve_each`, which takes one thread a source. Memory in float, beyond
-/// Serial's: pieces of surfaces 130 to 150 bytes a triangle, of solids and wireframes 20, kept from
+/// Serial's: pieces of surfaces 130 to 150 bytes a triangle, of wireframes 20 a vertex, kept from
 /// solve to solve; in double about twice that.
 ///
 /// Solving throws UsageError for less than one thread, and NotBuiltError in a

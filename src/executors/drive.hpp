@@ -31,7 +31,7 @@ void drive(const OpenMP& executor, const TriangleMesh<Real>& mesh,
            std::span<const PointSource> sources, const PropagateOptions& options,
            WorkspaceState<Real>& workspace, const Solve& solve) {
   const Team team(executor);
-  const PieceSettings settings = {.size = piece_size(executor, mesh.face_count(), {4096, 64})};
+  const PieceSettings settings = {.size = piece_size(executor, mesh.face_count())};
   if (is_one_piece(settings.size, mesh.face_count())) {
     drive<kLabels>(Serial{}, mesh, sources, options, workspace, solve);
     return;

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <deque>
 #include <limits>
 #include <span>
 #include <type_traits>
@@ -100,19 +99,17 @@ void solve_in_pieces(const Team& team, const Wireframe<Real>& wireframe,
   const Deal deal = team.deal();
   const RangeCut& cut = kept.cut;
   const Real step = step_of<Real>(options, wireframe.typical_edge());
-  std::deque<Piece> pieces;  // ours
-  std::vector<Piece*> by_number(kept.rooms.size(), nullptr);
-  for (std::size_t p = deal.ours; p < by_number.size(); p += deal.count) {
+  OurPieces<Piece> pieces(deal);
+  deal.each(kept.rooms.size(), [&](std::size_t p) {
     const std::size_t arcs = wireframe.begin()[cut.end(p)] - wireframe.begin()[cut.begin(p)];
-    by_number[p] = &pieces.emplace_back(
-        kept, static_cast<Index>(p), propagation.labels(), propagation.spread(), step,
-        options.schedule == Schedule::fifo ? std::numeric_limits<std::size_t>::max()
-                                           : wire_patience * arcs);
-  }
+    pieces.add(kept, static_cast<Index>(p), propagation.labels(), propagation.spread(), step,
+               options.schedule == Schedule::fifo ? std::numeric_limits<std::size_t>::max()
+                                                  : wire_patience * arcs);
+  });
   for (const Index v : seeds.vertex)
-    if (Piece* const piece = by_number[cut.piece_of(v)]) piece->give(v);
+    if (Piece* const piece = pieces.find(cut.piece_of(v))) piece->give(v);
   Supersteps<Piece> supersteps(
-      team, cut.cut, by_number, static_cast<Real>(pace_of(cut) * wireframe.typical_edge()),
+      team, cut.cut, pieces, static_cast<Real>(pace_of(cut) * wireframe.typical_edge()),
       wireframe.vertex_count(), wireframe.unit(), options, workspace.pieces.counts());
   const bool complete =
       supersteps.run(propagation.statistics(), [](std::size_t, std::size_t) { return true; });
@@ -148,15 +145,11 @@ void solve_on(const OpenMP& executor, const Wireframe<Real>& wireframe,
   const Team team(executor);
   workspace.pieces.counts().start();
   const std::size_t n = wireframe.vertex_count();
-  const std::size_t size = piece_size(executor, n, wire_pieces);
-  thread_local WirePieces<Real> of_the_last;  // so that a second solve cuts nothing
-  WirePieces<Real>& pieces = of_the_last;
-  const bool one = is_one_piece(size, n);
-  if (!one) pieces.of(wireframe, size);
-  if (one || (executor.piece == 0 && !pays(wireframe, pieces.cut))) {
-    solve_on(Serial{}, wireframe, sources, options, workspace, field);
-    return;
-  }
+  const std::size_t size = piece_size(executor, n);
+  const auto alone = [&] { solve_on(Serial{}, wireframe, sources, options, workspace, field); };
+  if (is_one_piece(size, n)) return alone();
+  auto& pieces = workspace.pieces.template of<WirePieces<Real>>(wireframe, size, team.deal());
+  if (executor.piece == 0 && !pays(wireframe, pieces.cut)) return alone();
   team.hold([&] {
     with_step<Real>(sources, options, [&](auto step, auto labels) {
       solve_in_pieces<Real, decltype(step), decltype(labels)::value>(

@@ -1,18 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
 #include <plexway/common/ids.hpp>
 #include <plexway/solve/distance_field.hpp>
-#include <plexway/surface/triangle_mesh.hpp>
 
 #include "complexes/partition/deal.hpp"
 
 namespace plexway {
-
-template <class Real>
-class TrianglePatches;
 
 /// What the last solve by pieces was like, whatever the threads.
 struct SuperstepCounts {
@@ -33,32 +30,44 @@ struct SuperstepCounts {
   void start() { *this = {}; }
 };
 
-/// What solves by several threads keep of a surface that is cut into pieces, and the pieces' own
-/// memory. Holds nothing before the first.
-template <class Real>
+/// A domain that is cut into pieces, with their own memory.
+class KeptPieces {
+ public:
+  virtual ~KeptPieces() = default;
+  [[nodiscard]] virtual std::size_t bytes() const = 0;
+};
+
+/// What solves by several threads keep of the last domain. Nothing before the first.
 class PieceMemory {
  public:
-  PieceMemory() noexcept;
-  ~PieceMemory();
-  PieceMemory(PieceMemory&&) noexcept;
-  PieceMemory& operator=(PieceMemory&&) noexcept;
-
-  /// The pieces of this surface: those of the last call, unless that was for another surface or
-  /// another size. About `size` triangles each, with room for those that are ours. Cost of new
-  /// ones: about a solve's.
-  TrianglePatches<Real>& of(const TriangleMesh<Real>& mesh, std::size_t size, Deal deal = {});
+  /// The pieces of this domain: those of the last call, unless that was for another domain, size or
+  /// deal. Made as Pieces(domain, size, deal): about `size` simplices each. Cost of new ones: about
+  /// a solve's.
+  template <class Pieces, class Domain>
+  Pieces& of(const Domain& domain, std::size_t size, Deal deal) {
+    auto* pieces = dynamic_cast<Pieces*>(kept_.get());
+    if (pieces == nullptr || identity_ != domain.identity() || size_ != size || deal_ != deal) {
+      kept_.reset();  // its memory first
+      kept_ = std::make_unique<Pieces>(domain, size, deal);
+      pieces = static_cast<Pieces*>(kept_.get());
+      identity_ = domain.identity();
+      size_ = size;
+      deal_ = deal;
+    }
+    return *pieces;
+  }
 
   /// What the last solve was like.
   [[nodiscard]] SuperstepCounts& counts() { return counts_; }
 
-  [[nodiscard]] std::size_t bytes() const;
+  [[nodiscard]] std::size_t bytes() const { return kept_ ? kept_->bytes() : 0; }
 
  private:
-  std::unique_ptr<TrianglePatches<Real>> patches_;
+  std::unique_ptr<KeptPieces> kept_;
+  std::uint64_t identity_ = 0;
+  std::size_t size_ = 0;
+  Deal deal_;
   SuperstepCounts counts_;
 };
-
-extern template class PieceMemory<float>;
-extern template class PieceMemory<double>;
 
 }  // namespace plexway

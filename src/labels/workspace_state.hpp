@@ -41,7 +41,7 @@ struct WorkspaceState {
   WindowMemory<Real> windows;               ///< on surfaces: accuracies but `fast`
   /// The queues.
   FrontStorage front;
-  PieceMemory<Real> pieces;                       ///< for executors with several threads
+  PieceMemory pieces;                             ///< for executors with several threads
   std::vector<Real> vertex;                       ///< read-out, in the numbers inside
   std::vector<Index> vertex_source;               ///< its labels
   std::shared_ptr<SolidStrings> strings;          ///< in solids: strings/solid_strings.hpp

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <deque>
 #include <limits>
 #include <span>
 #include <vector>
@@ -26,9 +25,9 @@ class PiecedWindows {
 
   /// `patches` and what they refer to must outlive this.
   PiecedWindows(const TriangleMesh<Real>& mesh, const WindowPatches<Real>& patches)
-      : mesh_(mesh), patches_(patches), by_number_(patches.count(), nullptr) {
-    for (Index p = 0; p < patches.count(); ++p)
-      if (patches.deal().is_ours(p)) by_number_[p] = &pieces_.emplace_back(patches, p);
+      : mesh_(mesh), patches_(patches), pieces_(patches.deal()) {
+    patches.deal().each(patches.count(),
+                        [&](std::size_t p) { pieces_.add(patches, static_cast<Index>(p)); });
   }
   PiecedWindows(const PiecedWindows&) = delete;
   PiecedWindows& operator=(const PiecedWindows&) = delete;
@@ -49,14 +48,14 @@ class PiecedWindows {
         mesh_, sources,
         [&](Index v, double sigma, Index n) {
           for (const auto& place : patches_.places(v))
-            if (Piece* const piece = by_number_[place.piece])
+            if (Piece* const piece = pieces_.find(place.piece))
               piece->windows().seed_vertex(place.number, sigma, n);
         },
         [&](Index f, const std::array<double, 4>& b, double sigma, Index n) {
           const Cut& cut = patches_.cut();
           Windows::for_each_place(
               mesh_.triangles(), f, b, [&](Index g, const std::array<double, 4>& there) {
-                if (Piece* const piece = by_number_[cut.piece_of[g]])
+                if (Piece* const piece = pieces_.find(cut.piece_of[g]))
                   piece->windows().seed_inside(cut.number_of[g], there, sigma, n);
               });
         });
@@ -67,8 +66,7 @@ class PiecedWindows {
       return !too_many;
     };
     do {
-      complete_ = scheduler.run(patches_.cut(), std::span<Piece* const>(by_number_),
-                                mesh_.face_count(), statistics_, goes_on);
+      complete_ = scheduler.run(patches_.cut(), pieces_, mesh_.face_count(), statistics_, goes_on);
       if (too_many) return false;
       gather(scheduler, is_bounded);
     } while (complete_ && !is_bounded && fill_holes(scheduler));
@@ -107,7 +105,7 @@ class PiecedWindows {
       if (labels_) source_[v] = known.source;
     };
     const auto known_of = [&](std::size_t p, Index i) {
-      const Windows& windows = by_number_[p]->windows();
+      const Windows& windows = pieces_.find(p)->windows();
       return Known{windows.vertex_distance(i), windows.vertex_error(i),
                    labels_ ? windows.source(i) : none};
     };
@@ -147,7 +145,7 @@ class PiecedWindows {
       const auto& patch = patches_[p];
       for (Index i = 0; i < patch.shared; ++i) {
         const Index v = patch.vertices[i];
-        const Known known = by_number_[p] != nullptr ? known_of(p, i) : others[p][i];
+        const Known known = patches_.deal().is_ours(p) ? known_of(p, i) : others[p][i];
         const Number d = known.distance;
         if (d < distance_[v] ||
             (labels_ && d == distance_[v] && d < infinity && known.source < source_[v]))
@@ -180,15 +178,14 @@ class PiecedWindows {
           error_[w] = error_[v];
           if (labels_) source_[w] = source_[v];
           for (const auto& place : patches_.places(w))
-            if (Piece* const piece = by_number_[place.piece])
+            if (Piece* const piece = pieces_.find(place.piece))
               piece->windows().seed_hole(place.number, way, source(v), error_[v]);
         });
   }
 
   const TriangleMesh<Real>& mesh_;
   const WindowPatches<Real>& patches_;
-  std::deque<Piece> pieces_;  ///< ours
-  std::vector<Piece*> by_number_;
+  OurPieces<Piece> pieces_;
   bool labels_ = false, complete_ = true;
   PropagateStatistics statistics_;
   std::vector<Number> distance_, error_;

@@ -37,12 +37,11 @@ class WindowPiece {
   void begin(const WindowSources& sources, const PropagateOptions& options,
              const typename Windows::Limit& limit) {
     windows_.begin(sources, options, limit);
-    for (Outbox& box : mail_.box) box.forget();
+    mail_.forget();
     turns_ = {};
   }
 
   [[nodiscard]] Index number() const { return number_; }
-  [[nodiscard]] const CutPiece& cut() const { return *cut_; }
   [[nodiscard]] Outboxes& mail() { return mail_; }
   /// Of what waits here, or leaves: where a source's triangle has none but ghosts around it, all
   /// that it sends out leaves.
@@ -78,7 +77,7 @@ class WindowPiece {
     Leaving<typename Windows::Number>& leaving = windows_.leaving();
     double least = std::numeric_limits<double>::infinity();
     if (leaving.windows.empty() && leaving.vertices.empty()) return least;
-    const CutPiece& own = cut();
+    const CutPiece& own = *cut_;
     const PatchAddresses& addresses = *addresses_;
     const auto home = [&](const Message& message) {
       return addresses.at_home[(message.to >> 2) - own.own];
@@ -93,7 +92,7 @@ class WindowPiece {
     for (const Index v : leaving.vertices)
       for (const auto& place : addresses.vertices.of(v)) ++counts_[place.piece];
     Outbox& box = mail_.of(superstep);
-    box.start<Message>(superstep, counts_);
+    box.start<Message>(superstep, counts_.size(), [&](std::size_t peer) { return counts_[peer]; });
     for (Message& message : leaving.windows) {
       least = std::min(least, static_cast<double>(Windows::turn_of(message.window)));
       const auto [peer, f] = home(message);
@@ -118,8 +117,7 @@ class WindowPiece {
   }
 
   [[nodiscard]] std::size_t bytes() const {
-    return windows_.bytes() + mail_.box[0].bytes() + mail_.box[1].bytes() +
-           counts_.capacity() * sizeof(counts_[0]);
+    return windows_.bytes() + mail_.bytes() + counts_.capacity() * sizeof(counts_[0]);
   }
 
  private:

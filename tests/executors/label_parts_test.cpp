@@ -8,17 +8,13 @@
 #include <random>
 #include <vector>
 
-#include <plexway/error.hpp>
-#include <plexway/io/triangles.hpp>
 #include <plexway/solve.hpp>
 
 #include "complexes/jittered.hpp"
-#include "exact_data.hpp"
 #include "executors/check_scene.hpp"
 #include "executors/parity.hpp"
 #include "executors/parts_testing.hpp"
 #include "executors/piece_testing.hpp"
-#include "executors/team_cases.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::label_parts_test {
@@ -30,20 +26,6 @@ namespace {
 // Of pieces of a triangle or two, where each vertex is at a cut, and larger ones.
 constexpr Scheduler schedulers[] = {{1, 1, 25},  {2, 1, 25},  {3, 2, 25}, {4, 1, 25},
                                     {1, 3, 120}, {3, 1, 120}, {1, 1, 3},  {3, 2, 3}};
-
-std::vector<PointSource> mixed_sources(const Surface& s, std::size_t count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::vector<PointSource> sources;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Face& f = s.faces[below(random, s.faces.size())];
-    sources.push_back(PointSource::at(f[below(random, 3)]));
-  }
-  if (count == 1) return sources;
-  sources[1] = PointSource::in(below(random, s.faces.size()), {.2, .3, .5});
-  sources[2] = PointSource::in(below(random, s.faces.size()), {.4, .6, 0});
-  sources.back().offset = 0.01;
-  return sources;
-}
 
 template <class Real, class Known>
 double worst_of(const Surface& s, const std::vector<Real>& found, const Known& known) {
@@ -152,31 +134,23 @@ TEST_CASE("label parts: as accurate on curved surfaces as the whole in pieces") 
   // One order is as good as another, and at some vertices chance: of several cuts.
   constexpr std::size_t cuts[] = {1000, 2048, 4096};
   double serial = 0, in_parts = 0, in_pieces = 0, worst_in_pieces = 0, worst = 0;
-  for (const auto& file : exact_files("surfaces", ".obj")) {
-    const io::Triangles soup = io::read_triangles(file);
-    if (soup.triangles.size() > 60'000) continue;
-    const Surface s{soup.positions, soup.triangles};
-    const TriangleMesh<float> mesh(soup.positions, soup.triangles);
-    for (const ExactAnswer& exact : exact_answers(file)) {
-      const PointSource source = PointSource::at(static_cast<Index>(exact.source));
-      // Raw needles: at one vertex any order may be a quarter too long (pieces_test.cpp).
-      const bool needles = file.stem() == "t79741" || file.stem() == "t908460";
-      const auto error = [&](const DistanceField<float>& field, double& most) {
-        const ExactError e = error_of(field.distance, exact);
-        if (!needles) most = std::max(most, e.worst);
-        return e.mean;
-      };
-      double unused = 0;
-      serial += error(solve(Serial{}, mesh, source, by_labels()), unused);
-      for (const std::size_t piece : cuts) {
-        constexpr double share = 1. / std::size(cuts);
-        in_parts +=
-            share * error(solve_in_parts<float>(s, {2, 1, piece}, {source}, by_labels()), worst);
-        in_pieces +=
-            share * error(solve(pieces(1, piece), mesh, source, by_labels()), worst_in_pieces);
-      }
+  each_known_surface(60'000, [&](const KnownSurface& known) {
+    const auto error = [&](const DistanceField<float>& field, double& most) {
+      const ExactError e = error_of(field.distance, known.exact);
+      if (!known.needles()) most = std::max(most, e.worst);
+      return e.mean;
+    };
+    double unused = 0;
+    serial += error(solve(Serial{}, known.mesh, known.source, by_labels()), unused);
+    for (const std::size_t piece : cuts) {
+      constexpr double share = 1. / std::size(cuts);
+      in_parts += share * error(solve_in_parts<float>(known.surface, {2, 1, piece}, {known.source},
+                                                      by_labels()),
+                                worst);
+      in_pieces += share * error(solve(pieces(1, piece), known.mesh, known.source, by_labels()),
+                                 worst_in_pieces);
     }
-  }
+  });
   REQUIRE(serial > 0);
   INFO("mean " << in_parts / serial << " of Serial's, of the whole in pieces " << in_pieces / serial
                << "; worst " << worst << " and " << worst_in_pieces);

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <mutex>
-#include <optional>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -136,6 +136,22 @@ bool same_bits(const Joined<Real>& a, const Joined<Real>& b) {
          a.max_distance == b.max_distance && a.farthest == b.farthest &&
          a.statistics.expansions == b.statistics.expansions &&
          a.statistics.lowered_vertices == b.statistics.lowered_vertices;
+}
+
+/// Of triangles' vertices, since others are reached from nowhere; where there are several, from
+/// inside a triangle and on an edge, too, and the last with an offset.
+inline std::vector<PointSource> mixed_sources(const Surface& s, std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<PointSource> sources;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Face& f = s.faces[below(random, s.faces.size())];
+    sources.push_back(PointSource::at(f[below(random, 3)]));
+  }
+  if (count == 1) return sources;
+  sources[1] = PointSource::in(below(random, s.faces.size()), {.2, .3, .5});
+  sources[2] = PointSource::in(below(random, s.faces.size()), {.4, .6, 0});
+  sources.back().offset = 0.01;
+  return sources;
 }
 
 /// A sphere within a radius: what is nearer is within a share of the exact distance, what is

@@ -18,7 +18,6 @@
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
 #include "executors/thread_ranks.hpp"
-#include "labels/solid_solving.hpp"
 #include "labels/solving.hpp"
 #include "with_accuracy.hpp"
 
@@ -80,8 +79,6 @@ TEST_CASE("ranks: any number of ranks and threads has the bits of one process", 
   const auto mesh = jittered(20, 5).mesh<float>();
   check_same_bits(mesh, random_sources(mesh, 3, 1), at(Accuracy::fast()), 50, many);
   check_same_bits(mesh, random_sources(mesh, 3, 2), {}, 50, many);
-  const auto solid = l_shape(6).mesh<double>();
-  check_same_bits(solid, random_sources(solid, 3, 3), {}, 60, many);
 }
 
 TEMPLATE_TEST_CASE("ranks: labels on surfaces have the bits of one process", "[threads]", float,
@@ -119,25 +116,9 @@ TEMPLATE_TEST_CASE("ranks: windows have the bits of one process", "[threads]", f
   }
 }
 
-TEMPLATE_TEST_CASE("ranks: solids have the bits of one process", "[threads]", float, double) {
-  unsigned seed = 0;
-  for (const Solid& solid : {solid_cube(5), l_shape(6), walled(8, 0.25), pipe(12, 3, 4),
-                             edge_touch(6), vertex_touch(4)}) {
-    INFO("solid " << seed);
-    const auto mesh = solid.mesh<TestType>();
-    for (const Visibility visibility : {Visibility::saddles, Visibility::centroid}) {
-      PropagateOptions options;
-      options.visibility = visibility;
-      ++seed;
-      check_same_bits(mesh, random_sources(mesh, 1 + seed % 3, seed), options, 100);
-    }
-  }
-}
-
 TEST_CASE("ranks: a radius and a budget mean what they mean in one process", "[threads]") {
   const auto mesh = sphere(3).mesh<double>();
-  const auto solid = walled(8, 0.25).mesh<double>();
-  const auto sources = random_sources(mesh, 2, 3), inside = random_sources(solid, 2, 4);
+  const auto sources = random_sources(mesh, 2, 3);
   for (const Accuracy accuracy : {Accuracy::fast(), Accuracy::accurate(), Accuracy::exact()}) {
     PropagateOptions options = at(accuracy);
     options.radius = 0.7;
@@ -148,14 +129,6 @@ TEST_CASE("ranks: a radius and a budget mean what they mean in one process", "[t
       INFO("at most " << most);
       check_same_bits(mesh, sources, options, 50);
     }
-  }
-  PropagateOptions options;
-  options.radius = 0.5;
-  check_same_bits(solid, inside, options, 60);
-  options = {};
-  for (const std::size_t most : {1u, 900u}) {
-    options.max_expansions = most;
-    check_same_bits(solid, inside, options, 60);
   }
 }
 
@@ -173,11 +146,14 @@ TEMPLATE_TEST_CASE("ranks: wireframes have the bits of one process", "[threads]"
   }
 }
 
-TEST_CASE("ranks: what is one piece each solves for itself", "[threads]") {
+TEST_CASE("ranks: what is one piece each solves for itself, and a solid", "[threads]") {
   const auto mesh = grid(8, 8).mesh<float>();
   check_same_bits(mesh, random_sources(mesh, 2, 1), {}, 1000);
   const auto wires = random_wires(1, 60, 100).wireframe<float>();
   check_same_bits(wires, random_sources(wires, 2, 1), {}, 1000);
+  const auto solid = walled(8, 0.25).mesh<double>();
+  for (const Accuracy accuracy : {Accuracy::fast(), Accuracy::accurate()})
+    check_same_bits(solid, random_sources(solid, 2, 4), at(accuracy), 60);
 }
 
 TEST_CASE("ranks: one that fails is heard", "[threads]") {

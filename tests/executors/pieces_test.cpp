@@ -1,18 +1,13 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
-#include <string>
-#include <thread>
 
-#include <plexway/error.hpp>
-#include <plexway/io/triangles.hpp>
 #include <plexway/solve.hpp>
 
-#include "exact_data.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
-#include "executors/team_cases.hpp"
 #include "labels/solving.hpp"
 #include "labels/workspace_state.hpp"
 #include "with_accuracy.hpp"
@@ -65,16 +60,7 @@ TEMPLATE_TEST_CASE("pieces: the same bits with any number of threads", "[threads
 
 TEST_CASE("pieces: 200 solves on eight threads are one", "[threads]") {
   const auto mesh = sphere(4).mesh<float>();
-  const auto sources = random_sources(mesh, 5, 1);
-  Workspace<float> workspace;
-  DistanceField<float> first, field;
-  solve(pieces(8, 40), mesh, sources, fast(), workspace, first);
-  std::size_t others = 0;
-  for (int i = 0; i < 200; ++i) {
-    solve(pieces(8, 40), mesh, sources, fast(), workspace, field);
-    others += !same_bits(first, field);
-  }
-  CHECK(others == 0);
+  check_200_solves(mesh, random_sources(mesh, 5, 1), 40, fast());
 }
 
 TEMPLATE_TEST_CASE("pieces: a single one is the serial loop", "", float, double) {
@@ -122,74 +108,64 @@ TEMPLATE_TEST_CASE("pieces: exact where Serial is", "", float, double) {
 
 TEST_CASE("pieces: as accurate as Serial on curved surfaces") {
   double serial = 0, by_pieces = 0, worst_serial = 0, worst = 0;
-  for (const auto& file : exact_files("surfaces", ".obj")) {
-    const io::Triangles soup = io::read_triangles(file);
-    if (soup.triangles.size() > 100'000) continue;  // a second or two in all
-    const TriangleMesh<float> mesh(soup.positions, soup.triangles);
-    Workspace<float> workspace;
-    DistanceField<float> field;
-    for (const ExactAnswer& exact : exact_answers(file)) {
-      const PointSource source[] = {PointSource::at(static_cast<Index>(exact.source))};
-      // Raw needles: at one vertex the order of work decides between 8 % short and 25 % too long
-      // (Serial first in first out: 17 %), so only their means say something.
-      const std::string name = file.stem().string();
-      const bool needles = name == "t79741" || name == "t908460";
-      const auto error = [&](double& most) {
-        const ExactError e = error_of(field.distance, exact);
-        if (!needles) most = std::max(most, e.worst);
-        return e.mean;
-      };
-      solve(Serial{}, mesh, source, fast(), workspace, field);
-      serial += error(worst_serial);
-      // At single vertices any order of one thread's is as good: on beetle_car another step of
-      // Serial's is 5 % short at the vertex where pieces are.
-      PropagateOptions other = fast();
-      other.step = 2;
-      solve(Serial{}, mesh, source, other, workspace, field);
-      error(worst_serial);
-      solve(pieces(2, 2048), mesh, source, fast(), workspace, field);
-      by_pieces += error(worst);
-    }
-  }
+  Workspace<float> workspace;
+  DistanceField<float> field;
+  each_known_surface(100'000, [&](const KnownSurface& known) {
+    const PointSource source[] = {known.source};
+    const auto error = [&](double& most) {
+      const ExactError e = error_of(field.distance, known.exact);
+      if (!known.needles()) most = std::max(most, e.worst);
+      return e.mean;
+    };
+    solve(Serial{}, known.mesh, source, fast(), workspace, field);
+    serial += error(worst_serial);
+    // At single vertices any order of one thread's is as good: on beetle_car another step of
+    // Serial's is 5 % short at the vertex where pieces are.
+    PropagateOptions other = fast();
+    other.step = 2;
+    solve(Serial{}, known.mesh, source, other, workspace, field);
+    error(worst_serial);
+    solve(pieces(2, 2048), known.mesh, source, fast(), workspace, field);
+    by_pieces += error(worst);
+  });
   REQUIRE(serial > 0);
   CHECK(by_pieces < 1.05 * serial);
   CHECK(worst < 1.5 * worst_serial);
 }
 
+// A radius, an offset and a source inside a triangle.
 TEST_CASE("pieces: radius, offsets and sources inside triangles", "[threads]") {
-  check_radius_and_offsets(pieces(4, 50));
+  const auto mesh = grid(30, 30).mesh<double>();
+  PropagateOptions options = fast();
+  options.radius = 0.3;
+  const PointSource sources[] = {
+      {.vertex = 100, .offset = 0.05}, PointSource::in(700, {.2, .3, .5}), PointSource::at(900)};
+  const auto alone = solve(Serial{}, mesh, sources, options);
+  const auto field = solve(pieces(4, 50), mesh, sources, options);
+  CHECK(field.distance[100] == 0.05);
+  const Parity p = parity(alone, field);
+  CHECK(p.reached_by_one == 0);
+  CHECK(p.worst < 1e-12);
+  std::size_t beyond = 0;
+  for (const double d : field.distance) beyond += std::isinf(d);
+  CHECK(beyond > 100);
+  for (std::size_t v = 0; v < field.distance.size(); ++v)
+    CHECK((field.label[v] == none) == std::isinf(field.distance[v]));
 }
 
 TEST_CASE("pieces: every vertex a source, and offsets far apart", "[threads]") {
-  check_every_vertex_a_source(pieces(3, 100));
+  check_every_vertex_a_source(fast(), 1.5e-6);
 }
 
 TEST_CASE("pieces: a budget is kept to the last expansion", "[threads]") {
-  const auto mesh = grid(60, 60).mesh<float>();
-  PropagateOptions options = fast();
-  const auto whole = solve(pieces(4, 200), mesh, PointSource::at(0), options);
-  CHECK(whole.complete);
-  CHECK(whole.statistics.reached_simplices == mesh.face_count());
-  for (const std::size_t most : {0u, 1u, 100u, 3000u}) {
-    options.max_expansions = most;
-    const auto field = solve(pieces(4, 200), mesh, PointSource::at(0), options);
-    CHECK(!field.complete);
-    CHECK(field.statistics.expansions == most);
-    CHECK(field.distance[0] == 0);
-    bool no_less = true;
-    for (std::size_t v = 0; v < field.distance.size(); ++v)
-      no_less = no_less && field.distance[v] >= whole.distance[v] * (1 - 1e-5f);
-    CHECK(no_less);
-    CHECK(same_bits(field, solve(pieces(1, 200), mesh, PointSource::at(0), options)));
-  }
-  options.max_expansions = whole.statistics.expansions;
-  CHECK(same_bits(whole, solve(pieces(4, 200), mesh, PointSource::at(0), options)));
+  check_budget(grid(60, 60).mesh<float>(), 200, fast());
 }
 
 TEST_CASE("pieces: reports to the calling thread, and can be cancelled", "[threads]") {
-  const Workspace<float> workspace = check_reports(pieces(4, 2000), fast());
+  const Surface s = grid(200, 200);
+  const Workspace<float> workspace = check_reports(pieces(4, 2000), s.mesh<float>(), fast());
   const std::size_t bytes = workspace.state().pieces.bytes();
-  CHECK(bytes > 64 * grid(200, 200).faces.size());
+  CHECK(bytes > 64 * s.faces.size());
   CHECK(workspace.bytes() > bytes);
 }
 

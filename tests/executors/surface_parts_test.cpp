@@ -31,20 +31,6 @@ namespace {
 constexpr Scheduler schedulers[] = {{1, 1, 25}, {2, 1, 25},  {3, 2, 25},
                                     {4, 1, 25}, {1, 3, 120}, {3, 1, 120}};
 
-std::vector<PointSource> mixed_sources(const Surface& s, std::size_t count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::vector<PointSource> sources;
-  for (std::size_t i = 0; i < count; ++i) {
-    // A vertex of a triangle: others are reached from nowhere.
-    const Face& f = s.faces[below(random, s.faces.size())];
-    sources.push_back(PointSource::at(f[below(random, 3)]));
-  }
-  if (count == 1) return sources;
-  sources[1] = PointSource::in(below(random, s.faces.size()), {.2, .3, .5});
-  sources.back().offset = 0.01;
-  return sources;
-}
-
 template <class Real>
 double worst_of(const std::vector<Real>& found, const std::vector<Real>& expected) {
   double worst = 0;
@@ -362,30 +348,25 @@ TEST_CASE("parts: merged windows are as accurate as Serial's on curved surfaces"
   constexpr std::size_t cuts[] = {1400, 2048, 3000};
   double serial = 0, in_parts = 0, worst_serial = 0, worst = 0;
   std::size_t vertices = 0, worse = 0;
-  for (const auto& file : exact_files("surfaces", ".obj")) {
-    const io::Triangles soup = io::read_triangles(file);
-    if (soup.triangles.size() > 60'000 || file.stem() == "t79741") continue;  // needles: below
-    const Surface s{soup.positions, soup.triangles};
-    const TriangleMesh<float> mesh(soup.positions, soup.triangles);
-    for (const ExactAnswer& exact : exact_answers(file)) {
-      const PointSource source = PointSource::at(static_cast<Index>(exact.source));
-      const auto error = [&](const DistanceField<float>& field, double& most) {
-        CHECK(field.accuracy == Accuracy::accurate());
-        const ExactError e = error_of(field.distance, exact, 2.5e-3);
-        most = std::max(most, e.worst);
-        return e;
-      };
-      const ExactError of_serial = error(solve(Serial{}, mesh, source), worst_serial);
-      serial += of_serial.mean;
-      CHECK(of_serial.above == 0);
-      for (const std::size_t piece : cuts) {
-        const ExactError e = error(solve_in_parts<float>(s, {2, 1, piece}, {source}), worst);
-        in_parts += e.mean / std::size(cuts);
-        worse += e.above;
-      }
-      vertices += std::size(cuts) * exact.distance.size();
+  each_known_surface(60'000, [&](const KnownSurface& known) {
+    if (known.name == "t79741") return;  // needles: below
+    const auto error = [&](const DistanceField<float>& field, double& most) {
+      CHECK(field.accuracy == Accuracy::accurate());
+      const ExactError e = error_of(field.distance, known.exact, 2.5e-3);
+      most = std::max(most, e.worst);
+      return e;
+    };
+    const ExactError of_serial = error(solve(Serial{}, known.mesh, known.source), worst_serial);
+    serial += of_serial.mean;
+    CHECK(of_serial.above == 0);
+    for (const std::size_t piece : cuts) {
+      const ExactError e =
+          error(solve_in_parts<float>(known.surface, {2, 1, piece}, {known.source}), worst);
+      in_parts += e.mean / std::size(cuts);
+      worse += e.above;
     }
-  }
+    vertices += std::size(cuts) * known.exact.distance.size();
+  });
   REQUIRE(serial > 0);
   INFO("mean " << in_parts / serial << " of Serial's, worst " << worst << ", Serial's "
                << worst_serial << ", worse " << worse << " of " << vertices);

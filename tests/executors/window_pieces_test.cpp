@@ -5,19 +5,13 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
-#include <string>
-#include <thread>
 #include <vector>
 
-#include <plexway/error.hpp>
-#include <plexway/io/triangles.hpp>
 #include <plexway/solve.hpp>
 
 #include "complexes/jittered.hpp"
-#include "exact_data.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
-#include "executors/team_cases.hpp"
 #include "with_accuracy.hpp"
 
 namespace plexway::testing::window_pieces_test {
@@ -37,14 +31,6 @@ std::vector<PointSource> mixed_sources(const TriangleMesh<Real>& mesh, std::size
   sources[1] = PointSource::in(below(random, mesh.face_count()), {.2, .3, .5});
   sources.back().offset = 0.01;
   return sources;
-}
-
-template <class Real>
-double longest(const DistanceField<Real>& field) {
-  double most = 0;
-  for (const Real d : field.distance)
-    if (std::isfinite(d)) most = std::max(most, static_cast<double>(d));
-  return most;
 }
 
 }  // namespace
@@ -102,17 +88,7 @@ TEMPLATE_TEST_CASE("pieces: merged windows have the same bits with any number of
 
 TEST_CASE("pieces: 200 solves by windows on eight threads are one", "[threads]") {
   const auto mesh = sphere(4).mesh<float>();
-  const auto sources = random_sources(mesh, 5, 1);
-  Workspace<float> workspace;
-  DistanceField<float> first, field;
-  solve(pieces(8, 40), mesh, sources, {}, workspace, first);
-  CHECK(first.accuracy == Accuracy::accurate());
-  std::size_t others = 0;
-  for (int i = 0; i < 200; ++i) {
-    solve(pieces(8, 40), mesh, sources, {}, workspace, field);
-    others += !same_bits(first, field);
-  }
-  CHECK(others == 0);
+  check_200_solves(mesh, random_sources(mesh, 5, 1), 40, {});
 }
 
 TEMPLATE_TEST_CASE("pieces: a single one has the bits of Serial by windows", "", float, double) {
@@ -289,26 +265,21 @@ TEST_CASE("pieces: windows from points on edges of several triangles, and whose 
 
 TEST_CASE("pieces: merged windows are as accurate as Serial's on curved surfaces") {
   double serial = 0, by_pieces = 0, worst_serial = 0, worst = 0;
-  for (const auto& file : exact_files("surfaces", ".obj")) {
-    const io::Triangles soup = io::read_triangles(file);
-    if (soup.triangles.size() > 60'000) continue;  // a second or two in all
-    const TriangleMesh<float> mesh(soup.positions, soup.triangles);
-    Workspace<float> workspace;
-    DistanceField<float> field;
-    for (const ExactAnswer& exact : exact_answers(file)) {
-      const PointSource source[] = {PointSource::at(static_cast<Index>(exact.source))};
-      const auto error = [&](double& most) {
-        CHECK(field.accuracy == Accuracy::accurate());
-        const ExactError e = error_of(field.distance, exact);
-        most = std::max(most, e.worst);
-        return e.mean;
-      };
-      solve(Serial{}, mesh, source, {}, workspace, field);
-      serial += error(worst_serial);
-      solve(pieces(2, 2048), mesh, source, {}, workspace, field);
-      by_pieces += error(worst);
-    }
-  }
+  Workspace<float> workspace;
+  DistanceField<float> field;
+  each_known_surface(60'000, [&](const KnownSurface& known) {
+    const PointSource source[] = {known.source};
+    const auto error = [&](double& most) {
+      CHECK(field.accuracy == Accuracy::accurate());
+      const ExactError e = error_of(field.distance, known.exact);
+      most = std::max(most, e.worst);
+      return e.mean;
+    };
+    solve(Serial{}, known.mesh, source, {}, workspace, field);
+    serial += error(worst_serial);
+    solve(pieces(2, 2048), known.mesh, source, {}, workspace, field);
+    by_pieces += error(worst);
+  });
   REQUIRE(serial > 0);
   INFO("worst " << worst << ", Serial's " << worst_serial);
   CHECK(by_pieces < 1.05 * serial);
@@ -320,7 +291,7 @@ TEST_CASE("pieces: windows keep a radius", "[threads]") {
   const auto whole = solve(Serial{}, mesh, PointSource::at(5), at(Accuracy::exact()));
   for (const Accuracy accuracy : {Accuracy::exact(), Accuracy::accurate()}) {
     PropagateOptions options = at(accuracy);
-    options.radius = longest(whole) / 3;
+    options.radius = *std::max_element(whole.distance.begin(), whole.distance.end()) / 3;
     const auto field = solve(pieces(4, 50), mesh, PointSource::at(5), options);
     std::size_t beyond = 0, wrong = 0;
     for (std::size_t v = 0; v < field.distance.size(); ++v) {
@@ -339,41 +310,15 @@ TEST_CASE("pieces: windows keep a radius", "[threads]") {
 }
 
 TEST_CASE("pieces: a budget of windows is kept to the last one", "[threads]") {
-  const auto mesh = grid(60, 60).mesh<float>();
-  PropagateOptions options;
-  const auto whole = solve(pieces(4, 200), mesh, PointSource::at(0), options);
-  CHECK(whole.complete);
-  CHECK(whole.statistics.reached_simplices == mesh.face_count());
-  for (const std::size_t most : {0u, 1u, 100u, 3000u}) {
-    options.max_expansions = most;
-    const auto field = solve(pieces(4, 200), mesh, PointSource::at(0), options);
-    CHECK(!field.complete);
-    CHECK(field.statistics.expansions == most);
-    CHECK(field.distance[0] == 0);
-    CHECK(same_bits(field, solve(pieces(1, 200), mesh, PointSource::at(0), options)));
-  }
-  options.max_expansions = whole.statistics.expansions;
-  CHECK(same_bits(whole, solve(pieces(4, 200), mesh, PointSource::at(0), options)));
+  check_budget(grid(60, 60).mesh<float>(), 200, {});
 }
 
 TEST_CASE("pieces: windows report to the calling thread, and can be cancelled", "[threads]") {
-  check_reports(pieces(4, 2000), {});
+  check_reports(pieces(4, 2000), grid(200, 200).mesh<float>(), {});
 }
 
 TEST_CASE("pieces: every vertex a source of windows, and offsets far apart", "[threads]") {
-  const auto mesh = grid(40, 40).mesh<float>();
-  std::vector<PointSource> sources;
-  for (Index v = 0; v < mesh.vertex_count(); ++v) sources.push_back(PointSource::at(v));
-  const auto all = solve(pieces(3, 100), mesh, sources);
-  bool own = true;
-  for (Index v = 0; v < mesh.vertex_count(); ++v)
-    own = own && all.distance[v] == 0 && all.label[v] == v;
-  CHECK(own);
-  std::mt19937 random(3);
-  for (PointSource& s : sources) s.offset = 100 * uniform(random);
-  sources[7].offset = 0;
-  const auto field = solve(pieces(3, 100), mesh, sources);
-  CHECK(parity(solve(Serial{}, mesh, sources), field).worst < 1e-4);
+  check_every_vertex_a_source({}, 1e-4);
 }
 
 }  // namespace plexway::testing::window_pieces_test

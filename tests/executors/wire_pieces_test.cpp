@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <plexway/common/mask.hpp>
-#include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
 #include "complexes/test_wires.hpp"
@@ -194,7 +193,6 @@ TEST_CASE("pieces: lengths of very different size end in a wireframe, nearest fi
 
 TEST_CASE("pieces: radius, budgets and cancelling in wireframes", "[threads]") {
   const auto wires = lattice(40, 30, 8, 0.3, 1, 1).wireframe<double>();
-  const auto whole = solve(pieces(4, 100), wires, PointSource::at(0));
   PropagateOptions options;
   options.radius = 7.5;
   const auto sources = some_sources(wires, 4, 3);
@@ -205,33 +203,8 @@ TEST_CASE("pieces: radius, budgets and cancelling in wireframes", "[threads]") {
                    std::numeric_limits<double>::infinity()) > 100);
   for (std::size_t v = 0; v < near.distance.size(); ++v)
     if ((near.label[v] == none) != std::isinf(near.distance[v])) FAIL("label of vertex " << v);
-  for (const std::size_t most : {0u, 1u, 37u, 3000u}) {
-    options = {};
-    options.max_expansions = most;
-    const auto field = solve(pieces(4, 100), wires, PointSource::at(0), options);
-    INFO("at most " << most);
-    CHECK(!field.complete);
-    CHECK(field.statistics.expansions == most);
-    CHECK(same_bits(field, solve(pieces(1, 100), wires, PointSource::at(0), options)));
-    std::size_t below_true = 0;
-    for (std::size_t v = 0; v < field.distance.size(); ++v)
-      below_true += field.distance[v] < whole.distance[v];
-    CHECK(below_true == 0);
-  }
-  // As many as it takes are enough.
-  options = {};
-  options.max_expansions = whole.statistics.expansions;
-  CHECK(same_bits(whole, solve(pieces(3, 100), wires, PointSource::at(0), options)));
-
-  options = {};
-  options.progress = [](const Progress&) { return false; };
-  const auto large = lattice(300, 300, 1, 0.3, 1, 1).wireframe<double>();
-  Workspace<double> workspace;
-  DistanceField<double> field;
-  const PointSource source[] = {PointSource::at(0)};
-  CHECK_THROWS_AS(solve(pieces(4, 2000), large, source, options, workspace, field), Cancelled);
-  solve(pieces(4, 100), wires, source, {}, workspace, field);
-  CHECK(same_bits(field, whole));
+  check_budget(wires, 100, {});
+  check_reports(pieces(4, 2000), lattice(300, 300, 1, 0.3, 1, 1).wireframe<double>(), {});
 }
 
 TEST_CASE("pieces: a masked wireframe is solved behind its mask") {
@@ -250,16 +223,7 @@ TEST_CASE("pieces: a masked wireframe is solved behind its mask") {
 
 TEST_CASE("pieces: 200 solves of a wireframe on eight threads are one", "[threads]") {
   const auto wires = lattice(24, 24, 1, 0, 1, 1).wireframe<float>();
-  const auto sources = some_sources(wires, 5, 2);
-  Workspace<float> workspace;
-  DistanceField<float> first, field;
-  solve(pieces(8, 48), wires, sources, {}, workspace, first);
-  std::size_t others = 0;
-  for (int i = 0; i < 200; ++i) {
-    solve(pieces(8, 48), wires, sources, {}, workspace, field);
-    others += !same_bits(first, field);
-  }
-  CHECK(others == 0);
+  check_200_solves(wires, some_sources(wires, 5, 2), 48, {});
 }
 
 TEST_CASE("pieces: by themselves wireframes go in pieces only where that pays") {

@@ -145,12 +145,7 @@ TEST_CASE("what ranks cannot do in parts is said once, and no file is left") {
   REQUIRE(run_tool({"convert", text, input, "--quiet"}).code == 0);
   const std::size_t files = folder.files();
   const auto refused_by = [&](const Words& arguments, int code, const std::string& why) {
-    const Outcome run = run_program(*mpirun() + arguments);
-    CAPTURE(run.err);
-    CHECK(run.code == code);
-    const auto lines = complaints(run);
-    REQUIRE(lines.size() == 1);
-    CHECK(lines[0].find(why) != std::string::npos);
+    check_complaint(arguments, code, why);
     CHECK(folder.files() == files);
   };
   const auto distance = [&](const std::string& file) {
@@ -191,18 +186,12 @@ TEST_CASE("what ranks cannot do in parts is said once, and no file is left") {
   // A file that is cut short.
   const std::string bytes = content(input);
   const std::string cut = folder.write("cut.ply", bytes.substr(0, bytes.size() - 1));
-  const Outcome shorter = run_program(*mpirun() + Words{"-n", "2"} + distance(cut));
-  CHECK(shorter.code == 3);
-  CHECK(complaints(shorter).size() == 1);
+  check_complaint(Words{"-n", "2"} + distance(cut), 3, "cut.ply");
   fs::remove(cut);
   // Two files of as many vertices and triangles, of which one is numbered in another way; and what
   // is wrong with the content of one file, which several ranks read.
   const auto refused_for = [&](const Words& ranks, const std::string& why) {
-    const Outcome run = run_program(*mpirun() + ranks);
-    CAPTURE(run.err);
-    CHECK(run.code == 3);
-    REQUIRE(complaints(run).size() == 1);
-    CHECK(complaints(run)[0].find(why) != std::string::npos);
+    check_complaint(ranks, 3, why);
     CHECK(!fs::exists(out));
   };
   const std::string other = folder.at("other.ply"), huge = folder.at("huge.ply"),
@@ -227,12 +216,8 @@ TEST_CASE("what ranks cannot do in parts is said once, and no file is left") {
   REQUIRE(run_tool({"convert", large_text, large, "--quiet"}).code == 0);
   folder.write("d.pvtu", "an older one");
   fs::create_symlink("/dev/full", folder.at("d_1.vtu"));
-  const Outcome full = run_program(*mpirun() + Words{"-n", "2"} + distance(large));
-  CAPTURE(full.err);
-  CHECK(full.code == 1);
-  REQUIRE(complaints(full).size() == 1);
-  CHECK(complaints(full)[0].find("rank 1: cannot write " + folder.at("d_1.vtu").string()) !=
-        std::string::npos);
+  check_complaint(Words{"-n", "2"} + distance(large), 1,
+                  "rank 1: cannot write " + folder.at("d_1.vtu").string());
   CHECK(content(out) == "an older one");
 }
 
@@ -288,11 +273,8 @@ TEST_CASE("ranks solve in parts what others have written in parts") {
   CHECK(no.err.find("taken as one, for they lie in one place: ") != std::string::npos);
   // The tool that reads wholes names the one that does not; so does this one, of one rank's whole.
   for (const Outcome& whole :
-       {run_tool(from(input, {"--quiet"})), run_ranks(2, from(input, {"--quiet"}))}) {
-    CHECK(whole.code == 3);
-    REQUIRE(complaints(whole).size() == 1);
-    CHECK(complaints(whole)[0].find("in.pvtu --in-parts") != std::string::npos);
-  }
+       {run_tool(from(input, {"--quiet"})), run_ranks(2, from(input, {"--quiet"}))})
+    check_complaint(whole, 3, "in.pvtu --in-parts");
   // Ranks whose files have the same names, but not all the same sizes; or other names.
   fs::create_directory(folder.at("far"));
   for (const char* const file : {"in.pvtu", "in_0.vtu", "in_1.vtu", "in_2.vtu"})
@@ -302,10 +284,9 @@ TEST_CASE("ranks solve in parts what others have written in parts") {
     const Words more = {"--in-parts", "--quiet"};
     const Outcome run = run_program(*mpirun() + rank + from(input, more) + Words{":"} + rank +
                                     from((folder.at("far") / "in.pvtu").string(), more));
-    CAPTURE(run.err, why);
-    CHECK(run.code == (why.empty() ? 0 : 3));
-    REQUIRE(complaints(run).size() == (why.empty() ? 0 : 1));
-    if (!why.empty()) CHECK(complaints(run)[0].find(why) != std::string::npos);
+    if (!why.empty()) return check_complaint(run, 3, why);
+    CHECK(run.code == 0);
+    CHECK(complaints(run).empty());
   };
   fs::remove(folder.at("far") / "in_0.vtu");  // which the first rank reads
   differs("");
@@ -317,19 +298,13 @@ TEST_CASE("ranks solve in parts what others have written in parts") {
   differs("the ranks of one solve need the same domain");
   // In the place of what is read.
   fs::copy_file(input, folder.at("other.pvtu"));
-  const Outcome taken =
-      run_ranks(2, from(folder.at("other.pvtu"), {"--in-parts", "--quiet", "--out", input}));
-  CHECK(taken.code == 2);
-  REQUIRE(complaints(taken).size() == 1);
-  CHECK(complaints(taken)[0].find("in_0.vtu") != std::string::npos);
+  check_complaint(
+      run_ranks(2, from(folder.at("other.pvtu"), {"--in-parts", "--quiet", "--out", input})), 2,
+      "in_0.vtu");
   // What is wrong with one of the files.
   const auto refused = [&](const std::string& why) {
     fs::remove(out);
-    const Outcome run = run_ranks(2, from(input, {"--in-parts", "--quiet", "--out", out}));
-    CAPTURE(run.err, why);
-    CHECK(run.code == 3);
-    REQUIRE(complaints(run).size() == 1);
-    CHECK(complaints(run)[0].find(why) != std::string::npos);
+    check_complaint(run_ranks(2, from(input, {"--in-parts", "--quiet", "--out", out})), 3, why);
     CHECK(!fs::exists(out));
   };
   const std::string part = content(folder.at("in_1.vtu"));
@@ -373,10 +348,7 @@ TEST_CASE("a rank that dies in parts leaves no field that looks whole") {
   REQUIRE(run_tool({"convert", text, input, "--quiet"}).code == 0);
   const Words tool = Words{PLEXWAY_TEST_MPI_TOOL} +
                      from(input, {"--in-parts", "--threads", "1", "--quiet", "--out", out});
-  const std::string script = "\"$@\" & rank=$!\nsleep 0.3\nkill -9 $rank 2>/dev/null\nwait $rank";
-  const Outcome killed = run_program(*mpirun() + Words{"-n", "1"} + tool +
-                                     Words{":", "-n", "1", "sh", "-c", script, "sh"} + tool);
-  if (killed.code != 0) CHECK(killed.err.find("mpi") != std::string::npos);
+  const Outcome killed = run_with_one_killed(tool, "sleep 0.3");
   if (killed.code == 0 || fs::exists(out)) CHECK(Parts(out, 2, 131 * 131 + 1).agree);
 }
 

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "complexes/test_solids.hpp"
 #include "folder.hpp"
 #include "mpi/running.hpp"
 #include "mpi/surfaces.hpp"
@@ -20,20 +19,6 @@ namespace pieces_test {
 using namespace mpi_testing;
 
 namespace {
-
-std::string blocks() {
-  const auto s = plexway::testing::l_shape(24);
-  std::ostringstream text;
-  text << "MeshVersionFormatted 2\nDimension 3\nVertices\n" << s.positions.size() << '\n';
-  for (const auto& p : s.positions) text << p[0] << ' ' << p[1] << ' ' << p[2] << " 0\n";
-  text << "Tetrahedra\n" << s.tets.size() << '\n';
-  for (const auto& t : s.tets) {
-    for (const auto v : t) text << v + 1 << ' ';
-    text << "0\n";
-  }
-  text << "End\n";
-  return text.str();
-}
 
 // A net whose knots are not quite in rows.
 std::string net() {
@@ -92,8 +77,7 @@ Words from(const std::string& input, const Words& more) {
 TEST_CASE("ranks solve one field, bit for bit what threads solve") {
   if (!mpirun()) return;
   const testing::Folder folder;
-  const std::string surface = folder.write("hills.off", hills()),
-                    solid = folder.write("blocks.mesh", blocks());
+  const std::string surface = folder.write("hills.off", hills());
   const auto same = [&](const std::string& input, const Words& options,
                         const std::vector<std::pair<int, int>>& schedulers) {
     const std::string alone = folder.at("alone.npy"), together = folder.at("ranks.npy");
@@ -128,7 +112,6 @@ TEST_CASE("ranks solve one field, bit for bit what threads solve") {
   };
   same(surface, {"--accuracy", "fast"}, {{1, 1}, {2, 2}, {4, 1}});
   same(surface, {"--precision", "double"}, {{2, 1}, {4, 2}});
-  same(solid, {"--accuracy", "fast"}, {{2, 2}, {4, 1}});
   same(folder.write("net.obj", net()), {}, {{1, 2}, {2, 1}, {4, 2}});
 }
 
@@ -173,12 +156,7 @@ TEST_CASE("what ranks cannot solve together is said once, and no file is left") 
                     wires = folder.write("wires.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"),
                     out = folder.at("d.pvtu");
   const auto refused_by = [&](const Words& arguments, int code, const std::string& text) {
-    const Outcome run = run_program(*mpirun() + arguments);
-    CAPTURE(run.err);
-    CHECK(run.code == code);
-    const auto lines = complaints(run);
-    REQUIRE(lines.size() == 1);
-    CHECK(lines[0].find(text) != std::string::npos);
+    check_complaint(arguments, code, text);
     CHECK(folder.files() == 2);
   };
   const auto refused = [&](const Words& arguments, int code, const std::string& text) {
@@ -198,12 +176,9 @@ TEST_CASE("what ranks cannot solve together is said once, and no file is left") 
              3, "rank 1: ");
   // Two of one name that are not the same.
   const fs::path other = folder.write("other.off", square_off(6));
-  const Outcome differs =
-      run_program(*mpirun() + Words{"-n", "1", PLEXWAY_TEST_MPI_TOOL} + distance(input) +
-                  Words{":", "-n", "1", PLEXWAY_TEST_MPI_TOOL} + distance(other));
-  CHECK(differs.code == 3);
-  REQUIRE(complaints(differs).size() == 1);
-  CHECK(complaints(differs)[0].find("the same domain: rank 1 differs") != std::string::npos);
+  check_complaint(Words{"-n", "1", PLEXWAY_TEST_MPI_TOOL} + distance(input) +
+                      Words{":", "-n", "1", PLEXWAY_TEST_MPI_TOOL} + distance(other),
+                  3, "the same domain: rank 1 differs");
   fs::remove(other);
   CHECK(folder.files() == 2);
   // Two outputs, or one: what is in parts would miss some.
@@ -213,14 +188,8 @@ TEST_CASE("what ranks cannot solve together is said once, and no file is left") 
   for (const auto& [one, another] :
        {std::pair(Words{"-o", out}, Words{}), std::pair(Words{}, Words{"-o", out}),
         std::pair(Words{"-o", out}, Words{"-o", folder.at("e.pvtu")}),
-        std::pair(Words{}, Words{"-o", folder.at("e.csv")})}) {
-    const Outcome apart = run_program(*mpirun() + to(one) + Words{":"} + to(another));
-    CAPTURE(apart.err);
-    CHECK(apart.code == 2);
-    REQUIRE(complaints(apart).size() == 1);
-    CHECK(complaints(apart)[0].find("the same outputs: rank 1 differs") != std::string::npos);
-    CHECK(folder.files() == 2);
-  }
+        std::pair(Words{}, Words{"-o", folder.at("e.csv")})})
+    refused_by(to(one) + Words{":"} + to(another), 2, "the same outputs: rank 1 differs");
   // Alone there are no parts.
   const Outcome alone = run_tool(distance(input));
   CHECK(alone.code == 2);
@@ -236,27 +205,18 @@ TEST_CASE("a disk that gets full, or a rank that dies, leaves no field that look
   const Vtu whole(alone);
   folder.write("d.pvtu", "an older one");
   fs::create_symlink("/dev/full", folder.at("d_1.vtu"));
-  const Outcome full = run_ranks(2, from(input, {"--threads", "1", "--quiet", "--out", out}));
-  CAPTURE(full.err);
-  CHECK(full.code == 1);
-  const auto lines = complaints(full);
-  REQUIRE(lines.size() == 1);
-  CHECK(lines[0].find("rank 1: cannot write " + folder.at("d_1.vtu").string()) !=
-        std::string::npos);
+  const Words tool =
+      Words{PLEXWAY_TEST_MPI_TOOL} + from(input, {"--threads", "1", "--quiet", "--out", out});
+  check_complaint(Words{"-n", "2"} + tool, 1,
+                  "rank 1: cannot write " + folder.at("d_1.vtu").string());
   CHECK(content(out) == "an older one");  // nothing was lost
   CHECK(folder.files() == 4);
   fs::remove(folder.at("d_1.vtu"));
 
-  const Words tool =
-      Words{PLEXWAY_TEST_MPI_TOOL} + from(input, {"--threads", "1", "--quiet", "--out", out});
-  for (const char* const seconds : {"0.3", "0.6"}) {
+  for (const std::string seconds : {"0.3", "0.6"}) {
     CAPTURE(seconds);
     fs::remove(out);
-    const std::string script = std::string("\"$@\" & rank=$!\nsleep ") + seconds +
-                               "\nkill -9 $rank 2>/dev/null\nwait $rank";
-    const Outcome killed = run_program(*mpirun() + Words{"-n", "1"} + tool +
-                                       Words{":", "-n", "1", "sh", "-c", script, "sh"} + tool);
-    if (killed.code != 0) CHECK(killed.err.find("mpi") != std::string::npos);  // one ended
+    const Outcome killed = run_with_one_killed(tool, "sleep " + seconds);
     // The list of parts comes last: where it is, all are whole.
     if (killed.code == 0 || fs::exists(out)) check_parts(out, 2, whole);
   }

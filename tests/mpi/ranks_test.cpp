@@ -78,12 +78,7 @@ TEST_CASE("what ranks cannot do is said once") {
   const testing::Folder folder;
   const std::string input = folder.write("square.off", square_off(5));
   const auto refused = [&](const Words& arguments, int code, const std::string& text) {
-    const Outcome run = run_ranks(2, arguments);
-    CAPTURE(run.err);
-    CHECK(run.code == code);
-    const auto lines = complaints(run);
-    REQUIRE(lines.size() == 1);
-    CHECK(lines[0].find(text) != std::string::npos);
+    check_complaint(run_ranks(2, arguments), code, text);
   };
   const std::string out = folder.at("d.npy");
   refused({"pairs", folder.at("none.off"), "--sources", "all", "--out", out}, 3, "none.off");
@@ -105,20 +100,15 @@ TEST_CASE("a rank that dies ends the run, and the next goes on where it was") {
   // The second of two is killed as soon as there is a journal, and again where it was through by
   // then.
   const Words tool = Words{PLEXWAY_TEST_MPI_TOOL} + command(out);
-  const std::string script =
-      "\"$@\" & rank=$!\n"
-      "while kill -0 $rank 2>/dev/null && [ ! -s '" +
-      out + ".journal' ]; do sleep 0.005; done\nkill -9 $rank 2>/dev/null\nwait $rank";
+  const std::string a_while =
+      "while kill -0 $rank 2>/dev/null && [ ! -s '" + out + ".journal' ]; do sleep 0.005; done";
   bool kept = false;
   for (int tries = 0; !kept; ++tries) {
     REQUIRE(tries < 20);
-    const Outcome killed = run_program(*mpirun() + Words{"-n", "1"} + tool +
-                                       Words{":", "-n", "1", "sh", "-c", script, "sh"} + tool);
-    if (killed.code == 0) {
+    if (run_with_one_killed(tool, a_while).code == 0) {
       fs::remove(out);
       continue;
     }
-    CHECK(killed.err.find("mpi") != std::string::npos);  // it says that one ended
     CHECK_FALSE(fs::exists(out));
     kept = fs::exists(out + ".journal");
   }
@@ -138,12 +128,7 @@ TEST_CASE("a disk that gets full ends all ranks, and nothing is lost") {
     return Words{"pairs", input, "--sources", "all", "--quiet", "--out", file};
   };
   REQUIRE(run_tool(command(alone)).code == 0);
-  const Outcome full = run_ranks(2, command(out), 5'000'000);
-  CAPTURE(full.err);
-  CHECK(full.code == 1);
-  const auto lines = complaints(full);
-  REQUIRE(lines.size() == 1);
-  CHECK(lines[0].find("cannot write " + out) != std::string::npos);
+  check_complaint(run_ranks(2, command(out), 5'000'000), 1, "cannot write " + out);
   CHECK_FALSE(fs::exists(out));
   REQUIRE(fs::exists(out + ".journal"));
   REQUIRE(run_ranks(2, command(out)).code == 0);

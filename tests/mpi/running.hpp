@@ -61,4 +61,27 @@ inline std::vector<std::string> complaints(const Outcome& run) {
   return ours;
 }
 
+// A run ended with the code, and one complaint that says why.
+inline void check_complaint(const Outcome& run, int code, const std::string& why) {
+  CAPTURE(run.err, why);
+  CHECK(run.code == code);
+  const auto lines = complaints(run);
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0].find(why) != std::string::npos);
+}
+// So does mpirun with these words.
+inline void check_complaint(const Words& words, int code, const std::string& why) {
+  check_complaint(run_program(*mpirun() + words), code, why);
+}
+
+// Two ranks of the tool, of which one is killed after a while, given to sleep or the like.
+inline Outcome run_with_one_killed(const Words& tool, const std::string& a_while) {
+  const std::string script =
+      "\"$@\" & rank=$!\n" + a_while + "\nkill -9 $rank 2>/dev/null\nwait $rank";
+  const Outcome killed = run_program(*mpirun() + Words{"-n", "1"} + tool +
+                                     Words{":", "-n", "1", "sh", "-c", script, "sh"} + tool);
+  if (killed.code != 0) CHECK(killed.err.find("mpi") != std::string::npos);  // it says that one did
+  return killed;
+}
+
 }  // namespace mpi_testing

@@ -191,7 +191,7 @@ Box3 box_of_all(PieceRanks* ranks, std::span<const std::array<double, 3>> points
   for (const auto& point : points) box.take(point);
   for (std::size_t d = 0; d < 3; ++d) {
     box.low[d] = least_of(ranks, box.low[d]);
-    box.high[d] = -least_of(ranks, -box.high[d]);
+    box.high[d] = most_of(ranks, box.high[d]);
   }
   return box;
 }
@@ -310,8 +310,7 @@ DealtFaces deal_faces(PieceRanks* ranks, const SurfaceRows& rows, const VertexHo
       mail.to(deal.owner(piece)).add(DealtFace{places[f].key, piece, places[f].face, faces[f]});
     }
     mail.meet();
-    for (std::size_t r = 0; r < mail.count(); ++r)
-      for (Unpacked in = mail.from(r); !in.empty();) dealt.faces.push_back(in.take<DealtFace>());
+    mail.each([&](Unpacked& in) { dealt.faces.push_back(in.take<DealtFace>()); });
   }
   std::sort(dealt.faces.begin(), dealt.faces.end(), [](const DealtFace& a, const DealtFace& b) {
     return std::tie(a.piece, a.key, a.face) < std::tie(b.piece, b.key, b.face);

@@ -62,23 +62,17 @@ std::size_t hash_of(const Key& key) {
   return static_cast<std::size_t>(sum >> 20);
 }
 
-/// Who has number i of `count` in its range.
+/// Who has number i of `count` in its range: number r of n begins at count * r / n.
 std::size_t home_of(std::uint64_t i, std::uint64_t count, std::size_t ranks) {
-  auto r = static_cast<std::size_t>(static_cast<double>(i) / static_cast<double>(count) *
-                                    static_cast<double>(ranks));
-  r = std::min(r, ranks - 1);
-  while (i < count * r / ranks) --r;
-  while (i >= count * (r + 1) / ranks) ++r;
-  return r;
+  return static_cast<std::size_t>(((i + 1) * ranks - 1) / count);
 }
 
 /// Gives points of all parts their numbers.
 class Numbering {
  public:
-  Numbering(PieceRanks* ranks, std::span<const SurfaceFilePart> parts)
-      : ranks_(ranks), parts_(parts) {
-    for (const SurfaceFilePart& part : parts_) all_parts_ = std::max(all_parts_, part.number + 1);
-    all_parts_ = static_cast<std::size_t>(-least_of(ranks_, -static_cast<double>(all_parts_)));
+  /// Ours, of so many.
+  Numbering(PieceRanks* ranks, std::span<const SurfaceFilePart> parts, std::size_t all_parts)
+      : ranks_(ranks), parts_(parts), all_parts_(all_parts) {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       place_.push_back({static_cast<std::uint32_t>(parts_[i].number), i});
       numbers_.emplace_back(parts_[i].positions.size());
@@ -130,9 +124,7 @@ class Numbering {
             .add(Placed{place, part.ids[v], static_cast<std::uint32_t>(part.number)});
       }
     mail.meet();
-    std::vector<Placed> placed;
-    for (std::size_t r = 0; r < mail.count(); ++r)
-      for (Unpacked in = mail.from(r); !in.empty();) placed.push_back(in.take<Placed>());
+    auto placed = mail.all<Placed>();
     std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
       return std::tie(a.place, a.id, a.part) < std::tie(b.place, b.id, b.part);
     });
@@ -183,7 +175,7 @@ class Numbering {
     for (const SurfaceFilePart& part : parts_)
       for (const std::uint64_t id : part.ids) largest = std::max(largest, id);
     // As a double, and so rounded: homes are ranges of ids all the same.
-    const double ids = 1 - least_of(ranks_, -static_cast<double>(largest));
+    const double ids = 1 + most_of(ranks_, static_cast<double>(largest));
     RankMail mail(ranks_);
     std::vector<Key> own;
     for (const SurfaceFilePart& part : parts_) {
@@ -203,8 +195,7 @@ class Numbering {
       check_apart(part, own);
     }
     mail.meet();
-    for (std::size_t r = 0; r < mail.count(); ++r)
-      for (Unpacked in = mail.from(r); !in.empty();) asked_.push_back(in.take<VertexQuery>());
+    asked_ = mail.all<VertexQuery>();
     std::sort(asked_.begin(), asked_.end(), [](const VertexQuery& a, const VertexQuery& b) {
       return std::tie(a.key, a.part, a.point) < std::tie(b.key, b.part, b.point);
     });
@@ -289,9 +280,7 @@ class Numbering {
                           static_cast<std::uint32_t>(v), next++});
     }
     told.meet();
-    std::vector<Answer> known;
-    for (std::size_t r = 0; r < told.count(); ++r)
-      for (Unpacked in = told.from(r); !in.empty();) known.push_back(in.take<Answer>());
+    auto known = told.all<Answer>();
     const auto less = [](const auto& a, const auto& b) {
       return std::tie(a.part, a.point) < std::tie(b.part, b.point);
     };
@@ -309,18 +298,16 @@ class Numbering {
   }
   void hear(RankMail& mail) {
     mail.meet();
-    for (std::size_t r = 0; r < mail.count(); ++r)
-      for (Unpacked in = mail.from(r); !in.empty();) {
-        const auto told = in.take<Answer>();
-        const auto found =
-            std::lower_bound(place_.begin(), place_.end(), std::pair(told.part, std::size_t{0}));
-        numbers_[found->second][told.point] = told.number;
-      }
+    for (const Answer& told : mail.all<Answer>()) {
+      const auto found =
+          std::lower_bound(place_.begin(), place_.end(), std::pair(told.part, std::size_t{0}));
+      numbers_[found->second][told.point] = told.number;
+    }
   }
 
   PieceRanks* ranks_;
   std::span<const SurfaceFilePart> parts_;
-  std::size_t all_parts_ = 0;
+  std::size_t all_parts_;
   std::vector<std::pair<std::uint32_t, std::size_t>> place_;  ///< of a part by number, among ours
   std::vector<std::vector<std::uint64_t>> numbers_;
   std::vector<VertexQuery> asked_;
@@ -341,9 +328,7 @@ void check_no_overlap(PieceRanks* ranks, std::span<const SurfaceFilePart> parts,
       mail.to(hash_of(one.corners) % mail.count()).add(one);
     }
   mail.meet();
-  std::vector<Cornered> all;
-  for (std::size_t r = 0; r < mail.count(); ++r)
-    for (Unpacked in = mail.from(r); !in.empty();) all.push_back(in.take<Cornered>());
+  auto all = mail.all<Cornered>();
   std::sort(all.begin(), all.end(), [](const Cornered& a, const Cornered& b) {
     return std::tie(a.corners, a.part) < std::tie(b.corners, b.part);
   });
@@ -372,13 +357,13 @@ void check_row_count(const char* what, std::uint64_t count) {
 JoinedRows::JoinedRows(PieceRanks* ranks, std::vector<SurfaceFilePart> parts) {
   std::size_t largest = 0;  // of all parts: their number
   for (const SurfaceFilePart& part : parts) largest = std::max(largest, part.number + 1);
-  largest = static_cast<std::size_t>(-least_of(ranks, -static_cast<double>(largest)));
+  largest = static_cast<std::size_t>(most_of(ranks, static_cast<double>(largest)));
   std::vector<std::uint64_t> begin(largest + 1, 0);  // of each part's triangles
   for (const SurfaceFilePart& part : parts) begin[part.number] = part.triangles.size();
   add_up(ranks, begin);
   std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), std::uint64_t{0});
   const std::uint64_t faces_in_all = begin.back();
-  Numbering numbers(ranks, parts);
+  Numbering numbers(ranks, parts, largest);
   const std::uint64_t vertices_in_all = numbers.run();
   joined_ = numbers.joined();
   check_row_count("vertices", vertices_in_all);
@@ -410,17 +395,15 @@ JoinedRows::JoinedRows(PieceRanks* ranks, std::vector<SurfaceFilePart> parts) {
   positions_.resize(range(vertices_, first_vertex_));
   corners_.resize(range(faces_, first_face_));
   vertices.meet();
-  for (std::size_t r = 0; r < n; ++r)
-    for (Unpacked in = vertices.from(r); !in.empty();) {
-      const auto vertex = in.take<Vertex>();
-      positions_[static_cast<std::size_t>(vertex.number) - first_vertex_] = vertex.position;
-    }
+  vertices.each([&](Unpacked& in) {
+    const auto vertex = in.take<Vertex>();
+    positions_[static_cast<std::size_t>(vertex.number) - first_vertex_] = vertex.position;
+  });
   faces.meet();
-  for (std::size_t r = 0; r < n; ++r)
-    for (Unpacked in = faces.from(r); !in.empty();) {
-      const auto triangle = in.take<Row3>();
-      corners_[static_cast<std::size_t>(triangle.number) - first_face_] = triangle.corner;
-    }
+  faces.each([&](Unpacked& in) {
+    const auto triangle = in.take<Row3>();
+    corners_[static_cast<std::size_t>(triangle.number) - first_face_] = triangle.corner;
+  });
 }
 
 void JoinedRows::read_vertices(std::size_t first,

@@ -3,8 +3,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <string>
+#include <tuple>
 
 #include <plexway/error.hpp>
 #include <plexway/surface/detail/triangle_record.hpp>
@@ -15,120 +15,72 @@ namespace {
 using Point = std::array<double, 3>;
 using Corners = std::array<Index, 3>;
 
-/// What the processes that read vertices know of them: where they are, and who has them.
-class Directory {
- public:
-  Directory(PieceRanks* ranks, Deal deal, const VertexHomes& homes, std::span<PartDraft> drafts)
-      : ranks_(ranks), deal_(deal), homes_(homes), drafts_(drafts), asked_(ranks) {}
-
-  /// All processes. Returns which vertices of our range no piece has.
-  [[nodiscard]] std::vector<Index> ask() {
-    for (std::size_t i = 0; i < drafts_.size(); ++i) {
-      const std::span<const Index> vertices = drafts_[i].vertices;
-      const auto ranges = homes_.ranges_of(vertices);
-      for (std::size_t r = 0; r < deal_.count; ++r) {
-        asked_.to(r).add(static_cast<Index>(deal_.ours + i * deal_.count));
-        asked_.to(r).add(static_cast<Index>(ranges[r + 1] - ranges[r]));
-        asked_.to(r).add(vertices.subspan(ranges[r], ranges[r + 1] - ranges[r]));
-      }
-    }
-    asked_.meet();
-    note_pieces();
-    RankMail answers(ranks_);
-    each_list([&](std::size_t r, Index piece, std::span<const Index> vertices) {
-      answer(piece, vertices, answers.to(r));
-    });
-    answers.meet();
-    for (std::size_t r = 0; r < deal_.count; ++r) {
-      Unpacked mail = answers.from(r);
-      for (PartDraft& draft : drafts_) hear(draft, mail);
-    }
-    std::vector<Index> unreferenced;
-    for (std::size_t v = 0; v < homes_.size(); ++v)
-      if (begin_[v] == begin_[v + 1])
-        unreferenced.push_back(static_cast<Index>(homes_.begin() + v));
-    return unreferenced;
-  }
-
- private:
-  // visit(rank, piece, its vertices that are ours)
-  template <class Visit>
-  void each_list(const Visit& visit) const {
-    std::vector<Index> vertices;
-    for (std::size_t r = 0; r < deal_.count; ++r)
-      for (Unpacked mail = asked_.from(r); !mail.empty();) {
-        const auto piece = mail.take<Index>();
-        vertices.resize(mail.take<Index>());
-        mail.take(std::span(vertices));
-        visit(r, piece, std::span<const Index>(vertices));
-      }
-  }
-
-  void note_pieces() {
-    begin_.assign(homes_.size() + 1, 0);
-    each_list([&](std::size_t, Index, std::span<const Index> vertices) {
-      for (const Index v : vertices) ++begin_[v - homes_.begin() + 1];
-    });
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    pieces_.resize(begin_.back());
-    std::vector<std::size_t> at(begin_.begin(), begin_.end() - 1);
-    each_list([&](std::size_t, Index piece, std::span<const Index> vertices) {
-      for (const Index v : vertices) pieces_[at[v - homes_.begin()]++] = piece;
-    });
-    for (std::size_t v = 0; v < homes_.size(); ++v)
-      std::sort(pieces_.begin() + static_cast<std::ptrdiff_t>(begin_[v]),
-                pieces_.begin() + static_cast<std::ptrdiff_t>(begin_[v + 1]));
-  }
-  [[nodiscard]] std::span<const Index> pieces_of(Index vertex) const {
-    const std::size_t v = vertex - homes_.begin();
-    return std::span(pieces_).subspan(begin_[v], begin_[v + 1] - begin_[v]);
-  }
-
-  void answer(Index piece, std::span<const Index> vertices, Parcel& parcel) const {
-    parcel.add(static_cast<Index>(vertices.size()));
-    for (const Index v : vertices) parcel.add(homes_.position(v));
-    const auto is_shared = [&](Index v) { return pieces_of(v).size() > 1; };
-    parcel.add(static_cast<Index>(std::count_if(vertices.begin(), vertices.end(), is_shared)));
-    for (Index i = 0; i < vertices.size(); ++i) {
-      if (!is_shared(vertices[i])) continue;
-      const auto pieces = pieces_of(vertices[i]);
-      parcel.add(i);
-      parcel.add(static_cast<Index>(pieces.size() - 1));
-      for (const Index other : pieces)
-        if (other != piece) parcel.add(other);
-    }
-  }
-  static void hear(PartDraft& draft, Unpacked& mail) {
-    const auto before = static_cast<Index>(draft.positions.size());
-    draft.positions.resize(before + mail.take<Index>());
-    mail.take(std::span(draft.positions).subspan(before));
-    for (auto count = mail.take<Index>(); count > 0; --count) {
-      draft.shared.push_back(before + mail.take<Index>());
-      draft.pieces.emplace_back(mail.take<Index>());
-      mail.take(std::span(draft.pieces.back()));
-    }
-  }
-
-  PieceRanks* ranks_;
-  Deal deal_;
-  const VertexHomes& homes_;
-  std::span<PartDraft> drafts_;
-  RankMail asked_;
-  std::vector<std::size_t> begin_;
-  std::vector<Index> pieces_;
+/// To who has read a vertex: a piece has it.
+struct HadBy {
+  Index vertex, piece;
+};
+/// And back, to that piece: another has it, too.
+struct HadToo {
+  Index to, vertex, other;
 };
 
 }  // namespace
 
 std::vector<Index> ask_homes(PieceRanks* ranks, Deal deal, const VertexHomes& homes,
                              std::span<PartDraft> drafts) {
-  return Directory(ranks, deal, homes, drafts).ask();
+  std::vector<Index> vertices;  // of all our drafts
+  for (const PartDraft& draft : drafts)
+    vertices.insert(vertices.end(), draft.vertices.begin(), draft.vertices.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  const std::vector<Point> positions = homes.fetch(vertices);
+  RankMail asked(ranks), told(ranks);
+  for (std::size_t i = 0; i < drafts.size(); ++i) {
+    PartDraft& draft = drafts[i];
+    const auto ranges = homes.ranges_of(draft.vertices);
+    for (std::size_t r = 0; r < deal.count; ++r)
+      for (std::size_t v = ranges[r]; v < ranges[r + 1]; ++v)
+        asked.to(r).add(HadBy{draft.vertices[v], static_cast<Index>(deal.ours + i * deal.count)});
+    draft.positions.reserve(draft.vertices.size());
+    for (auto place = vertices.begin(); const Index v : draft.vertices) {
+      place = std::lower_bound(place, vertices.end(), v);
+      draft.positions.push_back(positions[static_cast<std::size_t>(place - vertices.begin())]);
+    }
+  }
+  asked.meet();
+  auto had = asked.all<HadBy>();
+  std::sort(had.begin(), had.end(), [](const HadBy& a, const HadBy& b) {
+    return std::tie(a.vertex, a.piece) < std::tie(b.vertex, b.piece);
+  });
+  std::vector<Index> unreferenced;
+  auto here = had.begin();
+  for (std::size_t v = homes.begin(); v < homes.begin() + homes.size(); ++v) {
+    const auto first = here;
+    while (here != had.end() && here->vertex == v) ++here;
+    if (first == here) unreferenced.push_back(static_cast<Index>(v));
+    for (auto a = first; a != here; ++a)
+      for (auto b = first; b != here; ++b)
+        if (a != b) told.to(deal.owner(a->piece)).add(HadToo{a->piece, a->vertex, b->piece});
+  }
+  told.meet();
+  // By vertices, as processes have ranges of these in order.
+  told.each([&](Unpacked& mail) {
+    const auto [to, vertex, other] = mail.take<HadToo>();
+    PartDraft& draft = drafts[deal.place(to)];
+    const Index place = draft.place_of(vertex);
+    if (draft.shared.empty() || draft.shared.back() != place) {
+      draft.shared.push_back(place);
+      draft.pieces.emplace_back();
+    }
+    draft.pieces.back().push_back(other);
+  });
+  return unreferenced;
 }
 
 std::vector<PartDraft> drafts_of(DealtFaces& dealt, Deal deal) {
   std::vector<PartDraft> drafts;
   auto begin = dealt.faces.begin();
-  for (std::size_t p = deal.ours; p < dealt.pieces; p += deal.count) {
+  deal.each(dealt.pieces, [&](std::size_t p) {
     PartDraft& draft = drafts.emplace_back();
     const auto end = std::find_if(begin, dealt.faces.end(),
                                   [&](const DealtFace& face) { return face.piece != p; });
@@ -143,7 +95,7 @@ std::vector<PartDraft> drafts_of(DealtFaces& dealt, Deal deal) {
     draft.vertices.shrink_to_fit();
     for (DealtFace& face : draft.faces)
       for (Index& v : face.corner) v = draft.place_of(v);
-  }
+  });
   return drafts;
 }
 
@@ -166,7 +118,7 @@ double mean_edge_of(PieceRanks* ranks, Deal deal, std::span<const PartDraft> dra
           throw InputError("face " + std::to_string(face.face) + ": an edge length is not finite");
         longest = std::max(longest, length);
       }
-  longest = -least_of(ranks, -longest);
+  longest = most_of(ranks, longest);
   if (!(longest > 0)) return 1;
   std::vector<std::uint64_t> sums(pieces, 0);  // bits of a number, each from one process
   for (std::size_t i = 0; i < drafts.size(); ++i) {

@@ -267,11 +267,10 @@ PartPieces<Real>::PartPieces(const Team& team, const SurfaceRows& rows, std::siz
       cut_.pieces[deal_.ours + i * deal_.count].at_cut = sort_by_cut(drafts[i], deal_, mail);
     }
     mail.meet();
-    for (std::size_t r = 0; r < mail.count(); ++r)
-      for (Unpacked in = mail.from(r); !in.empty();) {
-        const PartGhost ghost = in.take<PartGhost>();
-        drafts[deal_.place(ghost.to)].ghosts.push_back(ghost);
-      }
+    mail.each([&](Unpacked& in) {
+      const auto ghost = in.take<PartGhost>();
+      drafts[deal_.place(ghost.to)].ghosts.push_back(ghost);
+    });
   }
   parts_.resize(drafts.size());
   team.each(drafts.size(), [&](std::size_t i) {

@@ -90,12 +90,11 @@ class PartPieces {
       }
     }
     const std::size_t sent = mail.meet();
-    for (std::size_t r = 0; r < mail.count(); ++r)
-      for (Unpacked in = mail.from(r); !in.empty();) {
-        const std::size_t i = deal_.place(in.take<Index>());
-        const std::size_t peer = cut_of(parts_[i]).place_of(in.take<Index>());
-        read(i, peer, in);
-      }
+    mail.each([&](Unpacked& in) {
+      const std::size_t i = deal_.place(in.take<Index>());
+      const std::size_t peer = cut_of(parts_[i]).place_of(in.take<Index>());
+      read(i, peer, in);
+    });
     return sent;
   }
 

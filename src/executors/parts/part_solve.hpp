@@ -231,7 +231,7 @@ class PartSolve {
     field_.reached = counts[0];
     field_.beside_source = counts[1];
     if (counts[0] == 0) return;
-    field_.max_distance = -least_of(team_.ranks(), -most);
+    field_.max_distance = most_of(team_.ranks(), most);
     double farthest = std::numeric_limits<double>::infinity();
     for (std::size_t v = 0; v < vertices.size() && !(farthest < vertices[v]); ++v)
       if (static_cast<double>(field_.distance[v]) == field_.max_distance) farthest = vertices[v];

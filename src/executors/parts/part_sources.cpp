@@ -186,10 +186,8 @@ PartPoint nearest_on(const Team& team, const PartPieces<Real>& pieces,
   RankMail mail(team.ranks());
   for (std::size_t r = 0; r < mail.count(); ++r) mail.to(r).add(best);
   mail.meet();
-  for (std::size_t r = 0; r < mail.count(); ++r) {
-    const Found other = mail.from(r).template take<Found>();
+  for (const Found& other : mail.template all<Found>())
     if (other.face < best.face) best = other;
-  }
   return {best.source, best.distance};
 }
 

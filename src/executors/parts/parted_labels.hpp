@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <deque>
 #include <limits>
 #include <span>
 #include <tuple>
@@ -66,14 +65,11 @@ class PartedLabels {
         options_(options),
         counts_(counts),
         radius_(static_cast<Real>(options.radius / pieces.unit())),
-        by_number_(pieces.cut().pieces.size(), nullptr) {
+        labels_(pieces.deal()) {
     const typename Piece::Settings settings = {&options_, step_of<Real>(options), radius_,
                                                false,     pieces.summary().faces, pieces.unit()};
-    for (std::size_t i = 0; i < pieces.parts().size(); ++i) {
-      const PartPiece<Real>& part = pieces.parts()[i];
-      by_number_[part.number] =
-          &labels_.emplace_back(pieces.cut_of(part), rooms.sheet(i), rooms.room(i), like, settings);
-    }
+    for (std::size_t i = 0; i < pieces.parts().size(); ++i)
+      labels_.add(pieces.cut_of(pieces.parts()[i]), rooms.sheet(i), rooms.room(i), like, settings);
   }
   PartedLabels(const PartedLabels&) = delete;
   PartedLabels& operator=(const PartedLabels&) = delete;
@@ -83,7 +79,7 @@ class PartedLabels {
     const SurfacePartsSummary& summary = pieces_.summary();
     const double size = static_cast<double>(summary.faces) / static_cast<double>(summary.pieces);
     const PieceSettings settings = {.size = static_cast<std::size_t>(size)};
-    Supersteps<Piece> supersteps(team_, pieces_.cut(), by_number_,
+    Supersteps<Piece> supersteps(team_, pieces_.cut(), labels_,
                                  static_cast<Real>(settings.pace * std::sqrt(size)), summary.faces,
                                  pieces_.unit(), options_, counts_);
     const auto goes_on = [&](std::size_t expansions, std::size_t) {
@@ -236,8 +232,7 @@ class PartedLabels {
   const PropagateOptions& options_;
   SuperstepCounts& counts_;
   Real radius_;
-  std::deque<Piece> labels_;  ///< of our pieces
-  std::vector<Piece*> by_number_;
+  OurPieces<Piece> labels_;
   PropagateStatistics statistics_;
 };
 

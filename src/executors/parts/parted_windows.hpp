@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <deque>
 #include <limits>
 #include <span>
 #include <vector>
@@ -25,10 +24,9 @@ class PartedWindows {
 
   /// `pieces` must outlive this.
   explicit PartedWindows(const PartPieces<Real>& pieces)
-      : pieces_(pieces), by_number_(pieces.cut().pieces.size(), nullptr) {
+      : pieces_(pieces), windows_(pieces.deal()) {
     for (const PartPiece<Real>& part : pieces.parts())
-      by_number_[part.number] = &windows_.emplace_back(pieces.sheet(part), pieces.cut_of(part),
-                                                       part.addresses, part.number);
+      windows_.add(pieces.sheet(part), pieces.cut_of(part), part.addresses, part.number);
   }
   PartedWindows(const PartedWindows&) = delete;
   PartedWindows& operator=(const PartedWindows&) = delete;
@@ -52,8 +50,8 @@ class PartedWindows {
       return !too_many;
     };
     do {
-      complete_ = scheduler.run(pieces_.cut(), std::span<Piece* const>(by_number_),
-                                pieces_.summary().faces, statistics_, goes_on);
+      complete_ =
+          scheduler.run(pieces_.cut(), windows_, pieces_.summary().faces, statistics_, goes_on);
       if (too_many) return false;
     } while (complete_ && !is_bounded && fill_holes(scheduler));
     return true;
@@ -120,8 +118,7 @@ class PartedWindows {
   }
 
   const PartPieces<Real>& pieces_;
-  std::deque<Piece> windows_;  ///< of our pieces
-  std::vector<Piece*> by_number_;
+  OurPieces<Piece> windows_;
   bool labels_ = false, complete_ = true;
   PropagateStatistics statistics_;
 };

@@ -1,13 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <deque>
-#include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include <plexway/surface/triangle_mesh.hpp>
 
@@ -41,18 +37,18 @@ class PieceScheduler : public TeamScheduler<Real, kLabels> {
         mesh_.triangles(), std::declval<PieceFront<Real, Label, kLabels>&>()));
     using Piece = TrianglePiece<Real, Label, PieceRule, kLabels>;
     const Deal deal = this->team_.deal();
-    TrianglePatches<Real>& patches = this->workspace_.pieces.of(mesh_, settings_.size, deal);
+    TrianglePatches<Real>& patches = patches_of(this->workspace_);
     const Cut& cut = patches.cut();
-    std::deque<Piece> pieces;  // ours
-    std::vector<Piece*> by_number(patches.count(), nullptr);
-    for (std::size_t p = deal.ours; p < patches.count(); p += deal.count)
-      by_number[p] = &pieces.emplace_back(
+    OurPieces<Piece> pieces(deal);
+    deal.each(patches.count(), [&](std::size_t p) {
+      pieces.add(
           cut.pieces[p], patches[p].sheet(), patches[p], propagation.rule(),
           typename Piece::Settings{&this->options_, this->step_,
                                    static_cast<Real>(this->options_.radius / this->unit_),
                                    mesh_.summary().refracting_edges > 0, simplices, this->unit_});
+    });
     const double pace = settings_.pace * std::sqrt(static_cast<double>(settings_.size));
-    Supersteps<Piece> supersteps(this->team_, cut, by_number, static_cast<Real>(pace), simplices,
+    Supersteps<Piece> supersteps(this->team_, cut, pieces, static_cast<Real>(pace), simplices,
                                  this->unit_, this->options_, this->workspace_.pieces.counts());
     const auto goes_on = [&](std::size_t expansions, std::size_t) {
       check_end(expansions, simplices);
@@ -60,7 +56,7 @@ class PieceScheduler : public TeamScheduler<Real, kLabels> {
     };
     propagation.run([&](bool last_resort) {
       front.drain([&](Index f) {
-        if (Piece* const piece = by_number[cut.piece_of[f]])
+        if (Piece* const piece = pieces.find(cut.piece_of[f]))
           piece->give(cut.number_of[f], front.hinge(f), front.label(f),
                       propagation.rule().distance(f), front.source(f));
       });
@@ -70,23 +66,21 @@ class PieceScheduler : public TeamScheduler<Real, kLabels> {
       // just read is read out at once.
       const bool whole =
           front.out_of_budget() || front.reached_count() < simplices || !mesh_.pinched().empty();
-      this->team_.each(pieces.size(), [&](std::size_t p) {
+      this->team_.each(pieces.size(), [&](std::size_t i) {
         if (whole)
-          pieces[p].gather([&](Index f, std::size_t hinge, const auto& label, Index source) {
+          pieces[i].gather([&](Index f, std::size_t hinge, const Label& label, Index source) {
             front.know(f, hinge, label, source);
           });
-        pieces[p].read_out();
+        pieces[i].read_out();
       });
-      if (whole)
-        this->share_labels(by_number.size(), front,
-                           [&](std::size_t p, const auto& take) { by_number[p]->gather(take); });
+      if (whole) share_labels(pieces, patches.count(), front);
     });
   }
 
   /// After `run`: the distances of vertices.
   void read_out(WorkspaceState<Real>& workspace) const {
     const Deal deal = this->team_.deal();
-    TrianglePatches<Real>& patches = workspace.pieces.of(mesh_, settings_.size, deal);
+    TrianglePatches<Real>& patches = patches_of(workspace);
     const auto take = [&](Index v, Real distance, Index source) {
       workspace.vertex[v] = distance;
       if constexpr (kLabels) workspace.vertex_source[v] = source;
@@ -106,11 +100,11 @@ class PieceScheduler : public TeamScheduler<Real, kLabels> {
       for (std::size_t i = patch.shared; i < patch.vertices.size(); ++i)
         take(patch.vertices[i], patch.vertex[i], source_of(patch, i));
     });
-    for (std::size_t p = deal.ours; p < patches.count(); p += deal.count) {
+    deal.each(patches.count(), [&](std::size_t p) {
       const TrianglePatch<Real>& patch = patches[p];
       for (std::size_t i = 0; i < patch.shared; ++i)
         take_better(patch.vertices[i], patch.vertex[i], source_of(patch, i));
-    }
+    });
     workspace.pieces.counts().sent += share_pieces(
         this->team_.ranks(), patches.count(),
         [&](std::size_t p, Parcel& parcel) {
@@ -129,6 +123,33 @@ class PieceScheduler : public TeamScheduler<Real, kLabels> {
   }
 
  private:
+  /// Puts what other processes know of their triangles into the front.
+  template <class Pieces, class Front>
+  void share_labels(Pieces& pieces, std::size_t of_all, Front& front) const {
+    struct Known {
+      Index face, hinge, source;
+      typename Front::Label label;
+    };
+    this->workspace_.pieces.counts().sent += share_pieces(
+        this->team_.ranks(), of_all,
+        [&](std::size_t p, Parcel& parcel) {
+          pieces.find(p)->gather([&](Index f, std::size_t hinge, const auto& label, Index source) {
+            parcel.add(Known{f, static_cast<Index>(hinge), source, label});
+          });
+        },
+        [&](std::size_t, Unpacked mail) {
+          while (!mail.empty()) {
+            const Known known = mail.template take<Known>();
+            front.know(known.face, known.hinge, known.label, known.source);
+          }
+        });
+  }
+
+  [[nodiscard]] TrianglePatches<Real>& patches_of(WorkspaceState<Real>& workspace) const {
+    return workspace.pieces.template of<TrianglePatches<Real>>(mesh_, settings_.size,
+                                                               this->team_.deal());
+  }
+
   const TriangleMesh<Real>& mesh_;
   PieceSettings settings_;
 };

@@ -101,6 +101,19 @@ class RankMail {
   [[nodiscard]] Unpacked from(std::size_t rank) const {
     return Unpacked(rank == deal_.ours ? to_[rank].bytes() : PieceRanks::Bytes(from_[rank]));
   }
+  /// Calls read(mail) with what arrived, rank by rank, until it has taken all.
+  template <class Read>
+  void each(const Read& read) const {
+    for (std::size_t r = 0; r < count(); ++r)
+      for (Unpacked mail = from(r); !mail.empty();) read(mail);
+  }
+  /// All that arrived, where it is of one kind.
+  template <class Value>
+  [[nodiscard]] std::vector<Value> all() const {
+    std::vector<Value> values;
+    each([&](Unpacked& mail) { values.push_back(mail.take<Value>()); });
+    return values;
+  }
 
  private:
   PieceRanks* ranks_;
@@ -124,6 +137,10 @@ inline void add_up(PieceRanks* ranks, std::span<std::uint64_t> sums) {
 [[nodiscard]] inline double least_of(PieceRanks* ranks, double own) {
   RankMail(ranks).meet({}, own);
   return own;
+}
+/// The largest over all processes.
+[[nodiscard]] inline double most_of(PieceRanks* ranks, double own) {
+  return -least_of(ranks, -own);
 }
 
 /// Each process hears of the pieces of all others: write(piece, parcel) for each of ours, and

@@ -9,7 +9,6 @@
 #include <plexway/executors.hpp>
 #include <plexway/solve/options.hpp>
 
-#include "executors/threads/rank_mail.hpp"
 #include "executors/threads/team.hpp"
 #include "labels/workspace_state.hpp"
 
@@ -51,30 +50,6 @@ class TeamScheduler {
   [[nodiscard]] const Team& team() const { return team_; }
 
  protected:
-  /// Puts what other processes know of their simplices into the front: gather(piece, take) calls
-  /// take(simplex, hinge, label, source) for each that a piece of ours has reached.
-  template <class Front, class Gather>
-  void share_labels(std::size_t pieces, Front& front, const Gather& gather) const {
-    using Label = typename Front::Label;
-    struct Known {
-      Index simplex, hinge, source;
-      Label label;
-    };
-    workspace_.pieces.counts().sent += share_pieces(
-        team_.ranks(), pieces,
-        [&](std::size_t p, Parcel& parcel) {
-          gather(p, [&](Index s, std::size_t hinge, const Label& label, Index source) {
-            parcel.add(Known{s, static_cast<Index>(hinge), source, label});
-          });
-        },
-        [&](std::size_t, Unpacked mail) {
-          while (!mail.empty()) {
-            const Known known = mail.template take<Known>();
-            front.know(known.simplex, known.hinge, known.label, known.source);
-          }
-        });
-  }
-
   // Nothing waits in the front's second queue while the team works: it has room for all simplices.
   [[nodiscard]] Index* list() const { return workspace_.front.far.get(); }
 
@@ -85,23 +60,13 @@ class TeamScheduler {
   const PropagateOptions& options_;
 };
 
-/// How a domain is cut where the executor does not say it.
-struct PieceChoice {
-  std::size_t least;  ///< simplices a piece: fewer cost more than they are good for
-  std::size_t count;  ///< so many pieces where they are larger: enough for a dozen threads
-};
-
-/// Of wireframes, in vertices.
-inline constexpr PieceChoice wire_pieces = {4096, 64};
-
 /// About so many simplices a piece, of so many. Of the domain alone, never of threads. What one
-/// thread does in some milliseconds is a single piece.
-inline std::size_t piece_size(const OpenMP& executor, std::size_t simplices,
-                              const PieceChoice& choice) {
+/// thread does in some milliseconds is a single piece; fewer than 4096 cost more than they are good
+/// for, and 64 pieces are enough for a dozen threads.
+inline std::size_t piece_size(const OpenMP& executor, std::size_t simplices) {
   if (executor.piece != 0) return executor.piece;
-  constexpr std::size_t too_few = std::size_t{1} << 15;
-  if (simplices < too_few) return simplices + 1;
-  return std::max(choice.least, simplices / choice.count);
+  constexpr std::size_t too_few = std::size_t{1} << 15, least = 4096, pieces = 64;
+  return simplices < too_few ? simplices + 1 : std::max(least, simplices / pieces);
 }
 
 /// Is all of it one piece? Then one thread does what Serial does.

@@ -6,10 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <limits>
-#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -49,29 +47,26 @@ class Supersteps {
   using Real = typename Piece::Number;
   using Message = typename Piece::Message;
 
-  /// `pieces` is indexed by their numbers in the cut: null where another process has it. `pace`: so
-  /// far the horizon moves on in a superstep, in the unit inside, which is `unit` of the caller's;
-  /// of `simplices` in all. `counts` go on.
-  Supersteps(const Team& team, const Cut& cut, std::span<Piece* const> pieces, Real pace,
+  /// `pieces` of the cut are ours. `pace`: so far the horizon moves on in a superstep, in the unit
+  /// inside, which is `unit` of the caller's; of `simplices` in all. `counts` go on.
+  Supersteps(const Team& team, const Cut& cut, OurPieces<Piece>& pieces, Real pace,
              std::size_t simplices, double unit, const PropagateOptions& options,
              SuperstepCounts& counts)
       : team_(team),
-        deal_(team.deal()),
         cut_(cut),
-        pieces_(pieces.begin(), pieces.end()),
+        pieces_(pieces),
         post_(team.ranks(), cut),
         pace_(pace),
         simplices_(simplices),
         unit_(unit),
         options_(options),
         reported_(options, 65536),
+        after_(pieces.size()),
+        awake_(cut.pieces.size()),
         counts_(counts),
+        watch_(team.size()),
         owned_(pieces.size()) {
-    for (Index p = 0; p < pieces_.size(); ++p)
-      if (pieces_[p] != nullptr) ours_.push_back(p);
-    after_.resize(pieces_.size());
-    awake_.resize(pieces_.size());
-    if (pieces_.size() == 1) pace_ = std::numeric_limits<Real>::infinity();
+    if (cut.pieces.size() == 1) pace_ = std::numeric_limits<Real>::infinity();
   }
 
   /// Until no label waits. `before` is what was done by others. False if it ended early, as
@@ -82,18 +77,23 @@ class Supersteps {
     before_ = before;
     goes_on_ = goes_on;
     ended_ = complete_ = false;
-    for (const Index p : ours_) {
-      after_[p].nearest = pieces_[p]->nearest();
-      after_[p].weight = weight_of(*pieces_[p]);
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      after_[i].nearest = pieces_[i].nearest();
+      after_[i].weight = weight_of(pieces_[i]);
     }
-    const Sums sums = meet({});
-    plan(sums, false);
-    while (!ended_ && !failure_)
-      if (team_.size() == 1 || active_.size() <= 1 || Crowding::crowded())
-        attempt([&] { alone(); });
-      else
-        team_.hold([&] { together(); });
-    if (failure_) std::rethrow_exception(failure_);
+    plan(meet({}), false);
+    while (!ended_)
+      if (worth_a_team())
+        team_.hold([&] {
+          do {
+            together();
+            advance();
+          } while (!ended_ && worth_a_team());
+        });
+      else {
+        for (std::size_t k = 0; k < active_.size(); ++k) step(k);
+        advance();
+      }
     return complete_;
   }
 
@@ -116,8 +116,8 @@ class Supersteps {
   /// Of all pieces until now, those of other processes too, which must call it as well.
   [[nodiscard]] PropagateStatistics statistics() const {
     std::array<std::uint64_t, 3> sums{};
-    for (const Index p : ours_) {
-      const PropagateStatistics own = pieces_[p]->statistics();
+    for (const Piece& piece : pieces_) {
+      const PropagateStatistics own = piece.statistics();
       sums[0] += own.expansions;
       sums[1] += own.updates;
       sums[2] += own.reached_simplices;
@@ -136,9 +136,14 @@ class Supersteps {
   };
   /// Of all pieces.
   struct Sums {
-    Real nearest;  ///< of what waits or was told
-    std::size_t expansions = 0, first = 0, runs = 0, messages = 0, sent = 0;  // of a superstep
-    std::size_t updates = 0, reached = 0, weight = 0;                         // until now
+    enum Name { expansions, first, runs, messages, updates, reached, weight, names };
+
+    Real nearest = std::numeric_limits<Real>::infinity();  ///< of what waits or was told
+    std::size_t sent = 0;                                  ///< bytes
+    /// Of a superstep up to `messages`, else until now.
+    std::array<std::uint64_t, names> sum{};
+
+    [[nodiscard]] std::size_t of(Name name) const { return static_cast<std::size_t>(sum[name]); }
   };
 
   [[nodiscard]] static std::size_t weight_of(const Piece& piece) {
@@ -148,62 +153,46 @@ class Supersteps {
       return 0;
   }
 
-  template <class Work>
-  void attempt(const Work& work) noexcept {
-    try {
-      work();
-    } catch (...) {
-      const std::scoped_lock lock(failing_);
-      if (!failure_) failure_ = std::current_exception();
-    }
-  }
-
-  // ---- Together ----
-
-  /// Until it ends, or one thread is better.
+  /// A superstep by the team.
   void together() {
-    Gate gate(team_.size());
-    CrowdWatch watch(team_.size());
-    double since = seconds_on_wall();  // without what is done between supersteps
-    bool apart = false;
-    team_.run([&](int i, int threads) {
-      while (!ended_ && !apart) {
-        watch.watch(i, [&] { attempt([&] { work(i, threads); }); });
-        if (i != 0) {
-          gate.pass(threads);
-          continue;
-        }
-        gate.lead(threads, [&] {
-          watch.end_turn(seconds_on_wall() - since);
-          attempt([&] {
-            if (!failure_) advance();
-          });
-          since = seconds_on_wall();
-          // One piece is not worth waking the others for.
-          apart = failure_ || threads == 1 || active_.size() <= 1 || Crowding::crowded();
-        });
-      }
+    const double since = seconds_on_wall();
+    team_.run([&](int thread, int threads) {
+      watch_.watch(thread, [&] {
+        owned_.share(
+            superstep_, thread, threads, active_.size(), [&](std::size_t k) { return active_[k]; },
+            [&](std::size_t k) { step(k); });
+      });
     });
+    watch_.end_turn(seconds_on_wall() - since);
+  }
+  /// One piece is not worth waking others for.
+  [[nodiscard]] bool worth_a_team() const {
+    return team_.size() > 1 && active_.size() > 1 && !Crowding::crowded();
   }
 
-  void work(int thread, int threads) {
-    owned_.share(
-        superstep_, thread, threads, active_.size(),
-        [&](std::size_t i) { return deal_.place(active_[i]); },
-        [&](std::size_t i) { step(active_[i], grants_.empty() ? share_ : grants_[i]); });
+  /// Its number among all.
+  [[nodiscard]] std::size_t number(std::size_t i) const {
+    return pieces_.deal().ours + i * pieces_.deal().count;
   }
 
-  void step(std::size_t p, std::size_t most) {
-    Piece& piece = *pieces_[p];
-    const CutPiece& cut = cut_.pieces[p];
+  /// Of the k-th that is active; by some thread.
+  void step(std::size_t k) {
+    const std::size_t i = active_[k];
+    Piece& piece = pieces_[i];
+    const CutPiece& cut = cut_.pieces[number(i)];
     for (std::size_t peer = 0; peer < cut.peer_count(); ++peer) {
       const CutPiece::Peer& from = cut.peers[peer];
-      Outbox& box = mail_of(from.piece).of(superstep_ - 1);
-      for (const Message& message : box.template messages<Message>(superstep_ - 1, from.place))
-        piece.take(message);
+      if (Piece* const posted = pieces_.find(from.piece)) {
+        Outbox& box = posted->mail().of(superstep_ - 1);
+        for (const Message& message : box.template messages<Message>(superstep_ - 1, from.place))
+          piece.take(message);
+      } else {
+        for (Unpacked mail = post_.heard(number(i), peer); !mail.empty();)
+          piece.take(mail.template take<Message>());
+      }
     }
-    After& after = after_[p];
-    after.work = piece.run(horizon_, most, updates_);
+    After& after = after_[i];
+    after.work = piece.run(horizon_, grants_.empty() ? share_ : grants_[k], updates_);
     after.told = piece.post(superstep_, after.work);
     after.nearest = piece.nearest();
     const PropagateStatistics now = piece.statistics();
@@ -212,73 +201,51 @@ class Supersteps {
     after.weight = weight_of(piece);
   }
 
-  /// What a piece posted, whosever it is.
-  [[nodiscard]] Outboxes& mail_of(std::size_t p) {
-    return pieces_[p] != nullptr ? pieces_[p]->mail() : post_.mail_of(p);
-  }
-
-  // ---- Alone ----
-
-  void alone() {
-    work(0, 1);
-    advance();
-  }
-
   /// Sums up, with the other processes if there are any: who waits for messages is awake then.
   Sums meet(std::span<const std::size_t> ran) {
-    constexpr Real infinity = std::numeric_limits<Real>::infinity();
-    Sums all{.nearest = infinity};
+    Sums all;
     std::fill(awake_.begin(), awake_.end(), 0);
-    all.runs = ran.size();
-    for (const std::size_t p : ran) {
-      const After& after = after_[p];
-      all.expansions += after.work.expansions;
-      all.first += after.work.first;
-      all.messages += after.work.messages;
+    all.sum[Sums::runs] = ran.size();
+    for (const std::size_t i : ran) {
+      const After& after = after_[i];
+      all.sum[Sums::expansions] += after.work.expansions;
+      all.sum[Sums::first] += after.work.first;
+      all.sum[Sums::messages] += after.work.messages;
       if (after.work.messages == 0) continue;
       all.nearest = std::min(all.nearest, after.told);
-      const CutPiece& cut = cut_.pieces[p];
-      Outbox& box = pieces_[p]->mail().of(superstep_);
+      const CutPiece& cut = cut_.pieces[number(i)];
+      Outbox& box = pieces_[i].mail().of(superstep_);
       for (std::size_t peer = 0; peer < cut.peer_count(); ++peer)
-        if (box.has_messages(superstep_, peer)) awake_[cut.peers[peer].piece] = 1;
-      post_.collect(static_cast<Index>(p), box, superstep_);
+        if (!box.template messages<Message>(superstep_, peer).empty())
+          awake_[cut.peers[peer].piece] = 1;
+      post_.collect(number(i), box, superstep_);
     }
-    for (const Index p : ours_) {
-      const After& after = after_[p];
+    for (const After& after : after_) {
       all.nearest = std::min(all.nearest, after.nearest);
-      all.updates += after.updates;
-      all.reached += after.reached;
-      all.weight += after.weight;
+      all.sum[Sums::updates] += after.updates;
+      all.sum[Sums::reached] += after.reached;
+      all.sum[Sums::weight] += after.weight;
     }
     if (post_.alone()) return all;
-    std::array<std::uint64_t, 7> sums = {all.expansions, all.first,   all.runs,  all.messages,
-                                         all.updates,    all.reached, all.weight};
     double nearest = static_cast<double>(all.nearest);
-    all.sent = post_.meet(superstep_, sums, nearest, [&](std::size_t piece) { awake_[piece] = 1; });
-    const auto size = [&](std::size_t i) { return static_cast<std::size_t>(sums[i]); };
-    return {static_cast<Real>(nearest),
-            size(0),
-            size(1),
-            size(2),
-            size(3),
-            all.sent,
-            size(4),
-            size(5),
-            size(6)};
+    all.sent = post_.meet(all.sum, nearest, [&](std::size_t piece) { awake_[piece] = 1; });
+    all.nearest = static_cast<Real>(nearest);
+    return all;
   }
 
   void advance() {
     const Sums sums = meet(active_);
-    counts_.messages += sums.messages;
-    counts_.bytes += sums.messages * sizeof(Message);
+    const std::size_t messages = sums.of(Sums::messages), expansions = sums.of(Sums::expansions);
+    counts_.messages += messages;
+    counts_.bytes += messages * sizeof(Message);
     counts_.sent += sums.sent;
     ++counts_.supersteps;
-    counts_.runs += sums.runs;
-    done_ += sums.expansions;
+    counts_.runs += sums.of(Sums::runs);
+    done_ += expansions;
     constexpr double most_repeats = 0.3;
-    plan(sums, static_cast<double>(sums.first) <
-                   (1 - most_repeats) * static_cast<double>(sums.expansions));
-    reported_.count(done_, [&] { return progress(sums.reached); });
+    plan(sums, static_cast<double>(sums.of(Sums::first)) <
+                   (1 - most_repeats) * static_cast<double>(expansions));
+    reported_.count(done_, [&] { return progress(sums.of(Sums::reached)); });
   }
 
   /// The next superstep.
@@ -292,10 +259,10 @@ class Supersteps {
     if (!(nearest < horizon_))  // the pace drowns in the distance
       horizon_ = std::nextafter(nearest, std::numeric_limits<Real>::infinity());
     active_.clear();
-    for (const Index p : ours_)
-      if (awake_[p] != 0 || after_[p].nearest < horizon_) active_.push_back(p);
+    for (std::size_t i = 0; i < pieces_.size(); ++i)
+      if (awake_[number(i)] != 0 || after_[i].nearest < horizon_) active_.push_back(i);
     const std::size_t spent = before_.expansions + done_;
-    if (!goes_on_(spent, sums.weight)) {
+    if (!goes_on_(spent, sums.of(Sums::weight))) {
       ended_ = true;
       return;
     }
@@ -306,7 +273,7 @@ class Supersteps {
     }
     grant(left);
     ++superstep_;
-    updates_ = before_.updates + sums.updates;
+    updates_ = before_.updates + sums.of(Sums::updates);
   }
 
   /// Not more than are left, in shares that depend on nothing but numbers.
@@ -314,18 +281,20 @@ class Supersteps {
     constexpr std::size_t most = 65536;
     share_ = most;
     grants_.clear();
-    if (left / pieces_.size() >= most) return;
+    const std::size_t pieces = cut_.pieces.size();
+    if (left / pieces >= most) return;
     // Who runs, in all processes: a bit each.
-    std::vector<std::uint64_t> runs((pieces_.size() + 63) / 64);
-    for (const std::size_t p : active_) runs[p / 64] |= std::uint64_t{1} << (p % 64);
+    std::vector<std::uint64_t> runs((pieces + 63) / 64);
+    for (const std::size_t i : active_)
+      runs[number(i) / 64] |= std::uint64_t{1} << (number(i) % 64);
     add_up(team_.ranks(), runs);
     std::size_t count = 0;
     for (const std::uint64_t word : runs) count += static_cast<std::size_t>(std::popcount(word));
     const std::size_t share = std::min(left / count, most), more = share == most ? 0 : left % count;
     std::size_t before = 0;  // pieces that run
-    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+    for (std::size_t p = 0; p < pieces; ++p) {
       if ((runs[p / 64] >> (p % 64) & 1) == 0) continue;
-      if (pieces_[p] != nullptr) grants_.push_back(share + (before < more));
+      if (pieces_.deal().is_ours(p)) grants_.push_back(share + (before < more));
       ++before;
     }
   }
@@ -336,10 +305,8 @@ class Supersteps {
   }
 
   const Team& team_;
-  Deal deal_;
   const Cut& cut_;
-  std::vector<Piece*> pieces_;
-  std::vector<Index> ours_;
+  OurPieces<Piece>& pieces_;
   PiecePost<Message> post_;
   Real pace_;
   std::size_t simplices_;
@@ -349,9 +316,9 @@ class Supersteps {
   ProgressCounter reported_;
 
   // Changed alone.
-  std::vector<After> after_;
-  std::vector<std::uint8_t> awake_;  // has messages to take
-  std::vector<std::size_t> active_;  // of ours
+  std::vector<After> after_;         // of ours
+  std::vector<std::uint8_t> awake_;  // of all: has messages to take
+  std::vector<std::size_t> active_;  // their numbers among ours
   std::vector<std::size_t> grants_;  // of each that is active, where not all get the same share
   Real horizon_ = 0;
   std::size_t superstep_ = 1, share_ = 0, updates_ = 0;
@@ -359,9 +326,7 @@ class Supersteps {
   PropagateStatistics before_, counted_;  // by others; of pieces, in a front
   std::size_t done_ = 0;                  // expansions
   SuperstepCounts& counts_;
-
-  std::exception_ptr failure_;
-  std::mutex failing_;
+  CrowdWatch watch_;
   OwnedWork owned_;
 };
 

@@ -21,7 +21,7 @@
 namespace plexway {
 
 /// Where a team's threads wait for each other: all come, the first then does what must be done
-/// alone, and lets the others go. Waits without sleeping at first, as rounds are short.
+/// alone, and lets the others go. Waits without sleeping at first, as turns are short.
 class Gate {
  public:
   explicit Gate(int threads) : patience_(threads <= threads_for(0) ? 2000 : 0) {}
@@ -33,14 +33,7 @@ class Gate {
     wait(round_, [round](unsigned now) { return now != round; });
   }
 
-  /// For the first: waits for the others, calls `alone`, and opens.
-  template <class Alone>
-  void lead(int threads, const Alone& alone) {
-    gather(threads);
-    alone();
-    open(threads);
-  }
-  /// The same in two: until all others are here; and they may go.
+  /// For the first: until all others are here; and they may go.
   void gather(int threads) const {
     if (threads > 1) wait(arrived_, [threads](int now) { return now == threads - 1; });
   }

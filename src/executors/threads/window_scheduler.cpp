@@ -13,7 +13,7 @@ bool solve_by_windows(const OpenMP& executor, const TriangleMesh<Real>& mesh,
                       DistanceField<Real>& field) {
   const Team team(executor);
   auto& solver = workspace.windows.on(mesh);
-  const std::size_t size = piece_size(executor, mesh.face_count(), {4096, 64});
+  const std::size_t size = piece_size(executor, mesh.face_count());
   if (is_one_piece(size, mesh.face_count()) || options.schedule != Schedule::dual_queue ||
       solver.kept() != nullptr)
     return solver.solve_by(Alone{}, sources, accuracy, options, workspace, field);

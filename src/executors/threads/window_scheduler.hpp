@@ -34,7 +34,7 @@ class WindowScheduler : public TeamScheduler<Real, false> {
 
   /// As Supersteps::run, and adds to `statistics` what pieces did.
   template <class Piece, class GoesOn>
-  bool run(const Cut& cut, std::span<Piece* const> pieces, std::size_t triangles,
+  bool run(const Cut& cut, OurPieces<Piece>& pieces, std::size_t triangles,
            PropagateStatistics& statistics, const GoesOn& goes_on) const {
     Supersteps<Piece> supersteps(this->team_, cut, pieces,
                                  window_pace * std::sqrt(static_cast<double>(size_)), triangles,

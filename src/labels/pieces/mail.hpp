@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -19,34 +18,26 @@ namespace plexway {
 /// What a piece posts in one superstep, peer by peer. Plain data, so that it may as well be sent.
 class Outbox {
  public:
-  /// Empty, for so many peers, with room for `most` messages.
-  template <class Message>
-  void start(std::size_t superstep, std::size_t peers, std::size_t most) {
+  /// Empty, with room for room_of(peer) messages to each of so many peers.
+  template <class Message, class RoomOf>
+  void start(std::size_t superstep, std::size_t peers, const RoomOf& room_of) {
     static_assert(std::is_trivially_copyable_v<Message>);
     superstep_ = superstep;
-    begin_.assign(peers + 1, 0);
-    peer_ = count_ = 0;
-    messages_.reserve<Message>(most);
-  }
-  /// One more to the peer in turn.
-  template <class Message>
-  void add(const Message& message) {
-    messages_.reserve<Message>(0)[count_++] = message;
-  }
-  void end_peer() { begin_[++peer_] = count_; }
-  /// As `start`, where it is known how many each peer gets: they may then be put in any order.
-  template <class Message>
-  void start(std::size_t superstep, std::span<const std::size_t> counts) {
-    start<Message>(superstep, counts.size(),
-                   std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
-    std::partial_sum(counts.begin(), counts.end(), begin_.begin() + 1);
-    next_.assign(begin_.begin(), begin_.end());
-    count_ = begin_.back();
+    count_ = 0;
+    begin_.resize(peers);
+    std::size_t room = 0;
+    for (std::size_t peer = 0; peer < peers; ++peer) {
+      begin_[peer] = room;
+      room += room_of(peer);
+    }
+    end_.assign(begin_.begin(), begin_.end());
+    messages_.reserve<Message>(room);
   }
   /// One more to that peer, behind those that it has.
   template <class Message>
   void put(std::size_t peer, const Message& message) {
-    messages_.reserve<Message>(0)[next_[peer]++] = message;
+    messages_.reserve<Message>(0)[end_[peer]++] = message;
+    ++count_;
   }
   /// There are none in any other superstep.
   void forget() { superstep_ = never; }
@@ -54,21 +45,18 @@ class Outbox {
   template <class Message>
   [[nodiscard]] std::span<const Message> messages(std::size_t superstep, std::size_t peer) {
     if (superstep != superstep_) return {};
-    return {messages_.reserve<Message>(0) + begin_[peer], begin_[peer + 1] - begin_[peer]};
-  }
-  [[nodiscard]] bool has_messages(std::size_t superstep, std::size_t peer) const {
-    return superstep == superstep_ && begin_[peer + 1] > begin_[peer];
+    return {messages_.reserve<Message>(0) + begin_[peer], end_[peer] - begin_[peer]};
   }
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t bytes() const {
-    return messages_.bytes() + (begin_.capacity() + next_.capacity()) * sizeof(std::size_t);
+    return messages_.bytes() + (begin_.capacity() + end_.capacity()) * sizeof(std::size_t);
   }
 
  private:
   static constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
   Room messages_;
-  std::vector<std::size_t> begin_, next_;
-  std::size_t superstep_ = never, peer_ = 0, count_ = 0;
+  std::vector<std::size_t> begin_, end_;
+  std::size_t superstep_ = never, count_ = 0;
 };
 
 /// A piece's messages of this superstep and of the one before: nobody reads what somebody writes.
@@ -76,7 +64,11 @@ struct Outboxes {
   Outbox box[2];
 
   [[nodiscard]] Outbox& of(std::size_t superstep) { return box[superstep % 2]; }
-  [[nodiscard]] const Outbox& of(std::size_t superstep) const { return box[superstep % 2]; }
+  /// Before a solve.
+  void forget() {
+    for (Outbox& one : box) one.forget();
+  }
+  [[nodiscard]] std::size_t bytes() const { return box[0].bytes() + box[1].bytes(); }
 };
 
 /// What a piece did in a superstep.
@@ -123,7 +115,7 @@ Real post_offers(std::vector<Message>& messages, const CutPiece& piece, const Pi
   std::vector<std::size_t> counts(piece.peer_count(), 0);
   for (const Message& message : messages) ++counts[peer_of(message)];
   Outbox& box = mail.of(superstep);
-  box.start<Message>(superstep, counts);
+  box.start<Message>(superstep, counts.size(), [&](std::size_t peer) { return counts[peer]; });
   for (const Message& message : messages) {
     least = std::min(least, message.distance);
     box.put(peer_of(message), message);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "complexes/partition/partition.hpp"
-#include "labels/piece_memory.hpp"
 #include "labels/pieces/piece_records.hpp"
 
 namespace plexway {
@@ -49,13 +48,9 @@ Partition partition_of(const TriangleMesh<Real>& mesh, std::size_t size) {
 
 template <class Real>
 TrianglePatches<Real>::TrianglePatches(const TriangleMesh<Real>& mesh, std::size_t size, Deal deal)
-    : identity_(mesh.identity()),
-      size_(size),
-      deal_(deal),
-      cut_(plexway::cut(partition_of(mesh, size), neighbours_of(mesh))) {
-  patches_.resize(cut_.pieces.size());
-  for (Index p = 0; p < patches_.size(); ++p)
-    if (deal.is_ours(p)) take_records(mesh, p);
+    : cut_(plexway::cut(partition_of(mesh, size), neighbours_of(mesh))),
+      patches_(cut_.pieces.size()) {
+  deal.each(count(), [&](std::size_t p) { take_records(mesh, static_cast<Index>(p)); });
   number_vertices(mesh, cut_, patches_);
 }
 
@@ -75,8 +70,7 @@ template <class Real>
 std::size_t TriangleRoom<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return marks.bytes() + front.capacity * 2 * sizeof(Index) + labels.bytes() + of(source) +
-         of(posted) + of(is_new) + of(vertex) + of(vertex_source) + mail.box[0].bytes() +
-         mail.box[1].bytes();
+         of(posted) + of(is_new) + of(vertex) + of(vertex_source) + mail.bytes();
 }
 
 template <class Real>
@@ -100,32 +94,5 @@ template class TrianglePatches<float>;
 template class TrianglePatches<double>;
 template Partition partition_of(const TriangleMesh<float>&, std::size_t);
 template Partition partition_of(const TriangleMesh<double>&, std::size_t);
-
-template <class Real>
-PieceMemory<Real>::PieceMemory() noexcept = default;
-template <class Real>
-PieceMemory<Real>::~PieceMemory() = default;
-template <class Real>
-PieceMemory<Real>::PieceMemory(PieceMemory&&) noexcept = default;
-template <class Real>
-PieceMemory<Real>& PieceMemory<Real>::operator=(PieceMemory&&) noexcept = default;
-
-template <class Real>
-TrianglePatches<Real>& PieceMemory<Real>::of(const TriangleMesh<Real>& mesh, std::size_t size,
-                                             Deal deal) {
-  if (!patches_ || !patches_->is_for(mesh, size, deal)) {
-    patches_.reset();  // its memory first
-    patches_ = std::make_unique<TrianglePatches<Real>>(mesh, size, deal);
-  }
-  return *patches_;
-}
-
-template <class Real>
-std::size_t PieceMemory<Real>::bytes() const {
-  return patches_ ? sizeof(*patches_) + patches_->bytes() : 0;
-}
-
-template class PieceMemory<float>;
-template class PieceMemory<double>;
 
 }  // namespace plexway

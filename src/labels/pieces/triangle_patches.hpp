@@ -11,6 +11,7 @@
 #include "complexes/partition/deal.hpp"
 #include "labels/front.hpp"
 #include "labels/label_memory.hpp"
+#include "labels/piece_memory.hpp"
 #include "labels/pieces/mail.hpp"
 
 namespace plexway {
@@ -83,25 +84,19 @@ struct TrianglePatch : TriangleRoom<Real> {
 
 /// A surface cut into pieces.
 template <class Real>
-class TrianglePatches {
+class TrianglePatches final : public KeptPieces {
  public:
   /// About `size` triangles each. Those that are not ours stay without triangles.
-  TrianglePatches(const TriangleMesh<Real>& mesh, std::size_t size, Deal deal = {});
+  TrianglePatches(const TriangleMesh<Real>& mesh, std::size_t size, Deal deal);
 
-  [[nodiscard]] bool is_for(const TriangleMesh<Real>& mesh, std::size_t size, Deal deal) const {
-    return mesh.identity() == identity_ && size == size_ && deal == deal_;
-  }
   [[nodiscard]] const Cut& cut() const { return cut_; }
   [[nodiscard]] std::size_t count() const { return cut_.pieces.size(); }
   [[nodiscard]] TrianglePatch<Real>& operator[](std::size_t piece) { return patches_[piece]; }
-  [[nodiscard]] std::size_t bytes() const;
+  [[nodiscard]] std::size_t bytes() const override;
 
  private:
   void take_records(const TriangleMesh<Real>& mesh, Index piece);
 
-  std::uint64_t identity_;
-  std::size_t size_;
-  Deal deal_;
   Cut cut_;
   std::vector<TrianglePatch<Real>> patches_;
 };

@@ -78,12 +78,11 @@ class TrianglePiece {
     for (const CutPiece::Slot& slot : cut.slots)
       room.posted[slot.here] = std::numeric_limits<Real>::infinity();
     room.is_new.assign(cut.at_cut, 0);
-    for (Outbox& box : room.mail.box) box.forget();
+    room.mail.forget();
   }
   TrianglePiece(const TrianglePiece&) = delete;
   TrianglePiece& operator=(const TrianglePiece&) = delete;
 
-  [[nodiscard]] const CutPiece& cut() const { return cut_; }
   [[nodiscard]] Outboxes& mail() { return room_.mail; }
 
   /// A label from outside the supersteps.
@@ -161,14 +160,14 @@ class TrianglePiece {
       least = std::min(least, d);
     }
     if (!(least < infinity)) return least;
-    box.start<Message>(superstep, cut_.peer_count(), cut_.slots.size());
-    for (std::size_t peer = 0; peer < cut_.peer_count(); ++peer) {
+    box.start<Message>(superstep, cut_.peer_count(),
+                       [&](std::size_t peer) { return cut_.slots_of(peer).size(); });
+    for (std::size_t peer = 0; peer < cut_.peer_count(); ++peer)
       for (const CutPiece::Slot& slot : cut_.slots_of(peer))
         if (room_.is_new[slot.here] != 0)
-          box.add(Message{slot.there, front_.source(slot.here),
+          box.put(peer,
+                  Message{slot.there, front_.source(slot.here),
                           static_cast<Index>(front_.hinge(slot.here)), front_.label(slot.here)});
-      box.end_peer();
-    }
     std::fill(room_.is_new.begin(), room_.is_new.end(), 0);
     work.messages = box.count();
     return least;

@@ -11,6 +11,7 @@
 #include <plexway/wireframe/wireframe.hpp>
 
 #include "complexes/partition/range_cut.hpp"
+#include "labels/piece_memory.hpp"
 #include "labels/pieces/mail.hpp"
 #include "labels/wireframe/wire_spread.hpp"
 
@@ -32,34 +33,26 @@ struct WireRoom {
 
   [[nodiscard]] std::size_t bytes() const {
     return front.capacity * 2 * sizeof(Index) + front.heap.capacity() * sizeof(front.heap[0]) +
-           mail.box[0].bytes() + mail.box[1].bytes() + messages.capacity() * sizeof(messages[0]);
+           mail.bytes() + messages.capacity() * sizeof(messages[0]);
   }
 };
 
 /// A wireframe cut into ranges of its vertices.
 template <class Real>
-struct WirePieces {
-  std::uint64_t identity = 0;
-  std::size_t size = 0;  ///< that was asked for
+struct WirePieces final : KeptPieces {
   RangeCut cut;
   std::vector<WireRoom<Real>> rooms;
 
-  /// Of this one, as it was last time if it is the same. Cost of another: linear, a quarter of a
-  /// solve's.
-  void of(const Wireframe<Real>& wireframe, std::size_t about) {
-    if (identity == wireframe.identity() && size == about) return;
-    const Index* const begin = wireframe.begin().data();
-    const WireArc<Real>* const arcs = wireframe.arcs().data();
-    cut = cut_in_ranges(wireframe.vertex_count(), about, [&](Index v, const auto& visit) {
-      for (Index k = begin[v]; k < begin[v + 1]; ++k) visit(arcs[k].to);
-    });
-    rooms.clear();
-    rooms.resize(cut.cut.pieces.size());
-    identity = wireframe.identity();
-    size = about;
-  }
+  /// Cost: linear, a quarter of a solve's.
+  WirePieces(const Wireframe<Real>& wireframe, std::size_t size, Deal)
+      : cut(cut_in_ranges(wireframe.vertex_count(), size,
+                          [begin = wireframe.begin().data(), arcs = wireframe.arcs().data()](
+                              Index v, const auto& visit) {
+                            for (Index k = begin[v]; k < begin[v + 1]; ++k) visit(arcs[k].to);
+                          })),
+        rooms(cut.cut.pieces.size()) {}
 
-  [[nodiscard]] std::size_t bytes() const {
+  [[nodiscard]] std::size_t bytes() const override {
     std::size_t sum = cut.cut.bytes() + rooms.capacity() * sizeof(rooms[0]);
     for (const auto& room : rooms) sum += room.bytes();
     return sum;
@@ -88,7 +81,7 @@ class WirePiece {
         spread_(spread.anew()),
         front_(prepare(room_, end_ - begin_), step),
         patience_(patience) {
-    for (Outbox& box : room_.mail.box) box.forget();
+    room_.mail.forget();
     room_.messages.clear();
   }
   WirePiece(const WirePiece&) = delete;
