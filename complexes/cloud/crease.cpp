@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "complexes/common/median.hpp"
+
 namespace plexway {
 namespace {
 
@@ -26,9 +28,7 @@ double roughness(const Places& places, std::span<const TangentFrame> frames, Ind
     if (std::abs(dot(frames[i].normal, frames[k].normal)) > own)
       heights.push_back(std::abs(dot(frames[i].normal, minus(places.at[k], places.at[i]))));
   if (heights.empty()) return 1;
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  return *middle / static_cast<double>(frames[i].spacing);
+  return median(heights) / static_cast<double>(frames[i].spacing);
 }
 
 }  // namespace
@@ -52,6 +52,12 @@ struct Meeting {
   Point3 across;  // in the plane of i, unit
   double to;      // from i to the line, by `across`
 };
+
+// Of the planes across m and n; q is from i to the place of the other.
+Meeting meeting_of(const Point3& m, const Point3& n, const Point3& q) {
+  const Point3 along = unit(cross(m, n)), across = cross(along, m);
+  return {along, across, dot(n, q) / dot(n, across)};
+}
 
 // On which side of the line is the part of a plane around place i that has points, by `across`; 0
 // if both have some. Points are in the plane that they are nearer to: `m` is its normal, `n` and
@@ -108,14 +114,10 @@ std::optional<Crease> crease_between(const Places& places, std::span<const Tange
   // Normals that tell inside from outside are on one side of a bend, and on both of a ridge.
   if (!may_crease(cosine) || (rule.oriented && same_side)) return {};
   const Point3 m = normal_of(frames[i]), n = normal_of(frames[j]);
-  Meeting line;
-  line.along = cross(m, n);
-  const double sine = std::sqrt(dot(line.along, line.along));
-  line.along = unit(line.along);
-  line.across = cross(line.along, m);
   const Point3 q = minus(places.at[j], places.at[i]);
+  Meeting line = meeting_of(m, n, q);
   // The sine of the angle between a plane's normal and the other plane is that of the two normals.
-  line.to = dot(n, q) / dot(n, line.across);
+  const double sine = norm(cross(m, n));
   Crease crease = {line.along, line.across, std::abs(line.to), std::abs(dot(m, q)) / sine};
   const double spacing = static_cast<double>(frames[i].spacing + frames[j].spacing) / 2;
   if (crease.here + crease.there > farthest * spacing) return {};
@@ -143,13 +145,9 @@ double way_over_ridge(const Places& places, std::span<const TangentFrame> frames
   if (rule.oriented && cosine >= rule.least_cosine) return 0;
   const Point3 m = normal_of(frames[i]), n = normal_of(frames[j]);
   const Point3 q = minus(places.at[j], places.at[i]);
-  Meeting line;
-  line.along = cross(m, n);
-  const double sine = std::sqrt(dot(line.along, line.along));
-  line.along = unit(line.along);
-  line.across = cross(line.along, m);
-  line.to = dot(n, q) / dot(n, line.across);
-  const double across = std::abs(line.to) + std::abs(dot(m, q)) / sine, along = dot(line.along, q);
+  Meeting line = meeting_of(m, n, q);
+  const double across = std::abs(line.to) + std::abs(dot(m, q)) / norm(cross(m, n)),
+               along = dot(line.along, q);
   const double spacing = static_cast<double>(frames[i].spacing + frames[j].spacing) / 2;
   if (across > farthest * spacing) return 0;
   const double way = std::sqrt(along * along + across * across);

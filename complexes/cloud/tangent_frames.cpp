@@ -6,6 +6,8 @@
 
 #include <plexway/common/blocks.hpp>
 
+#include "complexes/common/median.hpp"
+
 namespace plexway {
 namespace {
 
@@ -79,10 +81,7 @@ double median_offset(std::span<const Point3> around, const Point3& n, double sla
   std::vector<double> offsets;
   for (const Point3& q : around)
     if (const double off = std::abs(dot(n, q)); off <= slab) offsets.push_back(off);
-  if (offsets.empty()) return 0;
-  const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
-  std::nth_element(offsets.begin(), middle, offsets.end());
-  return *middle;
+  return offsets.empty() ? 0 : median(offsets);
 }
 
 // How well a plane through the place explains its neighbours: the nearer to it the better, and near

@@ -7,6 +7,7 @@
 #include <plexway/error.hpp>
 
 #include "complexes/common/disjoint_sets.hpp"
+#include "complexes/common/median.hpp"
 #include "complexes/common/number_range.hpp"
 #include "complexes/wireframe/vertex_order.hpp"
 
@@ -45,9 +46,7 @@ double mean_of(std::span<const double> lengths) {
 double typical_of(std::span<const double> lengths, double mean) {
   std::vector<double> positive(lengths.begin(), lengths.end());
   std::erase(positive, 0.0);
-  const auto middle = positive.begin() + static_cast<std::ptrdiff_t>(positive.size() / 2);
-  std::nth_element(positive.begin(), middle, positive.end());
-  const double part = std::min(*middle / mean, 1.0);
+  const double part = std::min(median(positive) / mean, 1.0);
   return mean * part * (1 + part) / 2;
 }
 

@@ -8,6 +8,7 @@
 #include <plexway/error.hpp>
 #include <plexway/render/picture.hpp>
 
+#include "complexes/common/box_tree.hpp"
 #include "io/field/colours.hpp"
 #include "render/camera.hpp"
 #include "render/skins.hpp"
@@ -85,18 +86,6 @@ void check(const Scene& scene, const PictureOptions& options) {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-struct Box {
-  Point low = {infinite, infinite, infinite}, high = {-infinite, -infinite, -infinite};
-
-  void add(const Point& p) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  }
-  [[nodiscard]] Point size() const { return minus(high, low); }
-};
-
 bool is_cloud(const Part& part) {
   return part.edges.empty() && part.triangles.empty() && part.tets.empty();
 }
@@ -113,8 +102,8 @@ void each_vertex(const Part& part, Use use) {
     for (std::uint32_t v = 0; v < part.positions.size(); ++v) use(v);
 }
 
-Box extent(const Scene& scene) {
-  Box box;
+Box<3> extent(const Scene& scene) {
+  auto box = Box<3>::empty();
   for (const Part& part : scene.parts) {
     each_vertex(part, [&](std::uint32_t v) { box.add(part.positions[v]); });
   }
@@ -301,8 +290,8 @@ Legend legend_of(const Scene& scene, const PictureOptions& options, const Style&
 Composition compose(const Scene& scene, const PictureOptions& options) {
   check(scene, options);
   const io::ColourMap map(options.map);
-  const Box box = extent(scene);
-  const Point size = box.size();
+  const Box<3> box = extent(scene);
+  const Point size = minus(box.high, box.low);
   Making making;
   making.frame.centre = between(box.low, box.high, 0.5);
   const double diagonal = std::sqrt(dot(size, size));

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "complexes/common/median.hpp"
 #include "render/camera.hpp"
 #include "render/skins.hpp"
 
@@ -152,10 +153,8 @@ void add_wires(Batch& batch, const Part& part, const Making& making) {
     const Point d = minus(part.positions[e[0]], part.positions[e[1]]);
     lengths.push_back(making.frame.scale * std::sqrt(dot(d, d)));
   }
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
   const double radius =
-      std::clamp(0.22 * *middle, 0.9 * making.pixel, std::max(2.6 * making.pixel, 0.008));
+      std::clamp(0.22 * median(lengths), 0.9 * making.pixel, std::max(2.6 * making.pixel, 0.008));
   const std::size_t sides = part.edges.size() < 20000 ? 12 : part.edges.size() < 100000 ? 6 : 4;
   std::vector<bool> joined(part.positions.size(), false);
   for (const auto& e : part.edges) {
@@ -320,9 +319,8 @@ std::vector<double> spacings(std::span<const Point> points) {
     found.push_back(distance);
   }
   std::vector<double> copy = found;
-  const auto middle = copy.begin() + static_cast<std::ptrdiff_t>(copy.size() / 2);
-  std::nth_element(copy.begin(), middle, copy.end());
-  for (double& f : found) f = std::clamp(f, *middle / 2, *middle * 2);
+  const double middle = median(copy);
+  for (double& f : found) f = std::clamp(f, middle / 2, middle * 2);
   return found;
 }
 

@@ -63,6 +63,23 @@ void add_polygon(Batch& batch, const Cut& where, const std::array<Vertex, 4>& co
     add_clipped(batch, clip, ends[0], ends[turned ? k : k - 1], ends[turned ? k - 1 : k]);
 }
 
+// Values and paints of the corners of a simplex.
+void paint_simplex(const Part& part, const Cells* cells, std::span<const std::uint32_t> corners,
+                   std::span<Vertex> vertices) {
+  bool reached = true;
+  for (std::size_t k = 0; k < corners.size() && !part.value.empty(); ++k) {
+    vertices[k].value = part.value[corners[k]];
+    reached = reached && std::isfinite(vertices[k].value);
+  }
+  if (cells != nullptr && reached && cells->paint(corners, vertices)) return;
+  for (Vertex& corner : vertices) {
+    corner.paint = part.value.empty() && cells == nullptr ? plain(part.colour.value_or(part_grey))
+                   : reached && cells == nullptr          ? by_value
+                                                          : plain(unreached);
+    if (!reached) corner.value = 0;
+  }
+}
+
 // The gradient at each vertex: the mean over its tetrahedra by volume.
 std::vector<Point> gradients(const Part& part) {
   std::vector<Point> sum(part.positions.size(), Point{});
@@ -106,7 +123,6 @@ std::vector<std::array<std::uint32_t, 3>> boundary(
 
 void add_cap(Batch& batch, const Part& part, const Cells* cells, const Making& making) {
   if (!making.clip) return;
-  const Paint bare = plain(part.colour.value_or(part_grey));
   for (const auto& t : part.tets) {
     std::array<Vertex, 4> v;
     std::array<double, 4> over{};
@@ -116,21 +132,8 @@ void add_cap(Batch& batch, const Part& part, const Cells* cells, const Making& m
     }
     const Cut where = cap_of(over);
     if (where.count == 0) continue;
-    bool reached = true;
-    for (std::size_t k = 0; k < 4; ++k) {
-      v[k].normal = making.clip->normal;
-      if (part.value.empty()) continue;
-      v[k].value = part.value[t[k]];
-      reached = reached && std::isfinite(v[k].value);
-    }
-    const bool in_cell = cells != nullptr && reached && cells->paint(t, v);
-    if (!in_cell)
-      for (Vertex& corner : v) {
-        corner.paint = part.value.empty() && cells == nullptr ? bare
-                       : reached && cells == nullptr          ? by_value
-                                                              : plain(unreached);
-        if (!reached) corner.value = 0;
-      }
+    for (Vertex& corner : v) corner.normal = making.clip->normal;
+    paint_simplex(part, cells, t, v);
     add_polygon(batch, where, v, std::nullopt);
   }
 }
@@ -199,10 +202,8 @@ void add_surface(Batch& batch, const Part& part, const Cells* cells,
       angles[f][k] = static_cast<float>(angle_at(part, triangles[f], k));
   }
   batch.corners.reserve(batch.corners.size() + 3 * triangles.size());
-  const Paint bare = plain(part.colour.value_or(part_grey));
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     std::array<Vertex, 3> v;
-    bool reached = true;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t at = triangles[f][k];
       v[k].position = making.frame(part.positions[at]);
@@ -216,18 +217,8 @@ void add_surface(Batch& batch, const Part& part, const Cells* cells,
         sum = plus(sum, times(cosine < 0 ? -weight : weight, normals[other]));
       }
       v[k].normal = dot(sum, sum) > 0 ? unit(sum) : normals[f];
-      if (part.value.empty()) continue;
-      v[k].value = part.value[at];
-      reached = reached && std::isfinite(part.value[at]);
     }
-    const bool in_cell = cells != nullptr && reached && cells->paint(triangles[f], v);
-    if (!in_cell)
-      for (Vertex& corner : v) {
-        corner.paint = part.value.empty() && cells == nullptr ? bare
-                       : reached && cells == nullptr          ? by_value
-                                                              : plain(unreached);
-        if (!reached) corner.value = 0;
-      }
+    paint_simplex(part, cells, triangles[f], v);
     add_clipped(batch, making.clip, v[0], v[1], v[2]);
   }
 }

@@ -232,40 +232,56 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
   std::shared_ptr<const AnyPathField::State> path_field(
       const AnyExecutor& executor, std::span<const PointSource> sources,
       const PropagateOptions& options) const override {
-    const auto ways = [&](const AnyField& field) -> Ways {
-      DistanceField<Real> found;
-      found.distance.assign(pieces_.complex.vertex_count(), std::numeric_limits<Real>::infinity());
-      const auto& distance = std::get<DistanceField<Real>>(field.data).distance;
-      for (std::size_t v = 0; v < distance.size(); ++v)
-        if (pieces_.vertex[v] != none) found.distance[pieces_.vertex[v]] = distance[v];
-      std::vector<PointSource> inside(sources.begin(), sources.end());
-      for (PointSource& source : inside) move(source);
-      std::vector<Index> outer(pieces_.complex.simplex_count());
-      for (Index s = 0; s < pieces_.simplex.size(); ++s) outer[pieces_.simplex[s]] = s;
-      auto paths = std::make_shared<PathField<MixedComplex<Real>>>(pieces_.complex);
-      paths->adopt(std::move(found), inside);
-      const auto inner = [this](PointSource point) {
-        if (const OpenSimplices* const open = this->open()) point = open->inside(point);
-        move(point);
-        return point;
-      };
-      const auto trace = [this, paths, inner, outer = std::move(outer)](
-                             const PointSource& point, const TraceOptions& tracing) -> Path {
-        const bool alone =
-            point.vertex < pieces_.vertex.size() && pieces_.vertex[point.vertex] == none;
-        if (alone) return {};  // in no simplex
-        Path path = paths->trace(inner(point), tracing);
-        for (PathPoint& at : path.points) at.simplex = outer[at.simplex];
-        if (const OpenSimplices* const open = this->open()) open->outside(path);
-        plexway::place(path, this->shape_);
-        return path;
-      };
-      return {trace, [paths, inner](const PointSource& point) { return paths->at(inner(point)); }};
-    };
-    return linear_field(this->shared_from_this(), this->shape_, executor, sources, options, ways);
+    return std::make_shared<Paths>(
+        std::static_pointer_cast<const PreparedMixed>(this->shared_from_this()), executor, sources,
+        options);
   }
 
  private:
+  class Paths final : public LinearField {
+   public:
+    Paths(const std::shared_ptr<const PreparedMixed>& of, const AnyExecutor& executor,
+          std::span<const PointSource> sources, const PropagateOptions& options)
+        : LinearField(of, of->shape_, executor, sources, options),
+          of_(*of),
+          paths_(of_.pieces_.complex),
+          outer_(of_.pieces_.complex.simplex_count()) {
+      const MixedPieces<Real>& pieces = of_.pieces_;
+      DistanceField<Real> found;
+      found.distance.assign(pieces.complex.vertex_count(), std::numeric_limits<Real>::infinity());
+      const auto& distance = std::get<DistanceField<Real>>(field.data).distance;
+      for (std::size_t v = 0; v < distance.size(); ++v)
+        if (pieces.vertex[v] != none) found.distance[pieces.vertex[v]] = distance[v];
+      std::vector<PointSource> inside(sources.begin(), sources.end());
+      for (PointSource& source : inside) of_.move(source);
+      for (Index s = 0; s < pieces.simplex.size(); ++s) outer_[pieces.simplex[s]] = s;
+      paths_.adopt(std::move(found), inside);
+    }
+
+    Path trace(const PointSource& point, const TraceOptions& options) const override {
+      if (options.margin) support(Purpose::margins, this->shape_.kind()).require();
+      const std::vector<Index>& vertex = of_.pieces_.vertex;
+      if (point.vertex < vertex.size() && vertex[point.vertex] == none) return {};  // in no simplex
+      Path path = paths_.trace(inner(point), options);
+      for (PathPoint& at : path.points) at.simplex = outer_[at.simplex];
+      if (const OpenSimplices* const open = of_.open()) open->outside(path);
+      plexway::place(path, this->shape_);
+      return path;
+    }
+
+   private:
+    double read(const PointSource& point) const override { return paths_.at(inner(point)); }
+    PointSource inner(PointSource point) const {
+      if (const OpenSimplices* const open = of_.open()) point = open->inside(point);
+      of_.move(point);
+      return point;
+    }
+
+    const PreparedMixed& of_;
+    PathField<MixedComplex<Real>> paths_;
+    std::vector<Index> outer_;
+  };
+
   const MixedComplex<Real>& of() const override { return pieces_.complex; }
 
   Placed place(const SourceList& sources, SolveRoom& room, AnyField& field) const override {

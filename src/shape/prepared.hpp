@@ -186,22 +186,26 @@ struct AnyPathField::State {
 /// Builds the complex of a shape. `shape` is kept.
 std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOptions& options);
 
-/// The way from a point of a shape to its nearest source, and the distance of a point in a simplex.
-struct Ways {
-  std::function<Path(const PointSource&, const TraceOptions&)> trace;
-  std::function<double(const PointSource&)> at;
-};
-/// Made for a field that was solved.
-using MakeWays = std::function<Ways(const AnyField&)>;
-
 /// A field that is read by its vertices' distances alone, linear within simplices: of mixed domains
-/// and complexes of simplices. Where there are `ways`, levels other than linear ask them. Solves on
-/// `domain`, which it keeps.
-std::shared_ptr<const AnyPathField::State> linear_field(std::shared_ptr<const Prepared> domain,
-                                                        const AnyShape& shape,
-                                                        const AnyExecutor& executor,
-                                                        std::span<const PointSource> sources,
-                                                        const PropagateOptions& options,
-                                                        const MakeWays& ways = {});
+/// and complexes of simplices. Other levels and paths are for those that derive from it.
+class LinearField : public AnyPathField::State {
+ public:
+  /// Solves on `domain`, which it keeps.
+  LinearField(std::shared_ptr<const Prepared> domain, const AnyShape& shape,
+              const AnyExecutor& executor, std::span<const PointSource> sources,
+              const PropagateOptions& options);
+
+  [[nodiscard]] Path trace(const PointSource& point, const TraceOptions& options) const override;
+  [[nodiscard]] double at(const PointSource& point, ReadOut level) const final;
+  [[nodiscard]] std::vector<std::array<double, 3>> gradient() const final;
+  [[nodiscard]] std::size_t bytes() const final { return field.size() * sizeof(double); }
+
+ protected:
+  /// Within a simplex, as exactly as it goes.
+  [[nodiscard]] virtual double read(const PointSource& point) const;
+
+  std::shared_ptr<const Prepared> domain_;
+  AnyShape shape_;
+};
 
 }  // namespace plexway

@@ -142,7 +142,7 @@ class PreparedKind : public Prepared {
       state->solve(executor, sources, options);
       return state;
     } else {
-      return linear_field(shared_from_this(), shape_, executor, sources, options);
+      return std::make_shared<LinearField>(shared_from_this(), shape_, executor, sources, options);
     }
   }
 

@@ -10,6 +10,7 @@
 #include <plexway/shape/support.hpp>
 #include <plexway/surface/normals.hpp>
 
+#include "complexes/common/box_tree.hpp"
 #include "complexes/common/point3.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/boundary.hpp"
@@ -144,26 +145,11 @@ void fill_page(io::Page& page, const AnyShape& shape, const SceneContent& conten
 
 namespace {
 
-struct Extents {
-  std::array<double, 3> low, high;
-
-  Extents() {
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
-  }
-  void add(const std::array<double, 3>& p) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  }
-  [[nodiscard]] double size(std::size_t k) const { return high[k] - low[k]; }
-};
-
 // How widely a part is spread across axis k, as a share of the whole.
-double spread(const Extents& part, const Extents& whole, std::size_t k) {
+double spread(const Box<3>& part, const std::array<double, 3>& whole, std::size_t k) {
+  const auto size = minus(part.high, part.low);
   const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-  return part.size(a) / whole.size(a) * (part.size(b) / whole.size(b));
+  return size[a] / whole[a] * (size[b] / whole[b]);
 }
 
 }  // namespace
@@ -171,9 +157,9 @@ double spread(const Extents& part, const Extents& whole, std::size_t k) {
 char probable_up(const AnyShape& shape) {
   const auto positions = shape.positions();
   if (positions.empty()) return 'z';
-  Extents whole;
+  auto whole = Box<3>::empty();
   for (const auto& p : positions) whole.add(p);
-  const std::array<double, 3> size = {whole.size(0), whole.size(1), whole.size(2)};
+  const std::array<double, 3> size = minus(whole.high, whole.low);
   const auto least =
       static_cast<std::size_t>(std::min_element(size.begin(), size.end()) - size.begin());
   const double next = std::min(size[(least + 1) % 3], size[(least + 2) % 3]);
@@ -182,7 +168,9 @@ char probable_up(const AnyShape& shape) {
   if (size[least] < flat * next) return least == 1 ? 'y' : 'z';
 
   constexpr double slab = 0.02;  // of the extent
-  std::array<Extents, 3> lower, upper;
+  std::array<Box<3>, 3> lower, upper;
+  lower.fill(Box<3>::empty());
+  upper.fill(Box<3>::empty());
   for (const auto& p : positions)
     for (std::size_t k = 0; k < 3; ++k) {
       if (p[k] <= whole.low[k] + slab * size[k]) lower[k].add(p);
@@ -190,7 +178,7 @@ char probable_up(const AnyShape& shape) {
     }
   std::array<double, 3> foot{};
   for (std::size_t k = 0; k < 3; ++k)
-    foot[k] = spread(lower[k], whole, k) - spread(upper[k], whole, k);
+    foot[k] = spread(lower[k], size, k) - spread(upper[k], size, k);
   const double others = std::max(std::abs(foot[0]), std::abs(foot[2]));
   return foot[1] > clear && foot[1] > others + clearer ? 'y' : 'z';
 }

@@ -51,37 +51,25 @@ bool same_bits(const Positions& a, const Positions& b) {
 }  // namespace
 
 TEST_CASE("tets: what is written reads back to the last bit") {
-  const Tets solid = awkward_solid();
-  for (const char* name : {"a.node", "a.ele", "A.NODE", "A.ELE", "a.mesh", "a.msh", "a.vtu",
-                           "a.vtk", "A.MESH", "A.Vtk"}) {
-    INFO(name);
-    const Folder folder;
-    write_tets(folder.path() / name, solid);
-    Tets back;
-    if (!read_if_built(folder.path() / name, back)) continue;
-    CHECK(same_bits(back.positions, solid.positions));
-    CHECK(back.tets == solid.tets);
-    const bool pair = std::string_view(name).substr(2, 1).find_first_of("nNeE") == 0;
-    CHECK(folder.files() == (pair ? 2 : 1));
-  }
-  CHECK(plexway::io::tet_extensions().size() == 6);
-}
-
-TEST_CASE("tets: more than a buffer's worth") {
-  const Folder folder;
-  Tets solid;
+  Tets large;  // more than a buffer's worth
   for (std::uint32_t i = 0; i < 20000; ++i) {
-    solid.positions.push_back({i * 0.1, i % 2 * 1.0, 1.0 / (i + 1)});
-    if (i >= 3) solid.tets.push_back({i - 3, i - 2, i - 1, i});
+    large.positions.push_back({i * 0.1, i % 2 * 1.0, 1.0 / (i + 1)});
+    if (i >= 3) large.tets.push_back({i - 3, i - 2, i - 1, i});
   }
-  for (const char* name : {"a.node", "a.mesh", "a.msh", "a.vtu", "a.vtk"}) {
-    INFO(name);
-    write_tets(folder.path() / name, solid);
-    Tets back;
-    if (!read_if_built(folder.path() / name, back)) continue;
-    CHECK(same_bits(back.positions, solid.positions));
-    CHECK(back.tets == solid.tets);
-  }
+  for (const Tets& solid : {awkward_solid(), large})
+    for (const char* name : {"a.node", "a.ele", "A.NODE", "A.ELE", "a.mesh", "a.msh", "a.vtu",
+                             "a.vtk", "A.MESH", "A.Vtk"}) {
+      INFO(name);
+      const Folder folder;
+      write_tets(folder.path() / name, solid);
+      Tets back;
+      if (!read_if_built(folder.path() / name, back)) continue;
+      CHECK(same_bits(back.positions, solid.positions));
+      CHECK(back.tets == solid.tets);
+      const bool pair = std::string_view(name).substr(2, 1).find_first_of("nNeE") == 0;
+      CHECK(folder.files() == (pair ? 2 : 1));
+    }
+  CHECK(plexway::io::tet_extensions().size() == 6);
 }
 
 TEST_CASE("tets: either file of TetGen's pair finds the other") {

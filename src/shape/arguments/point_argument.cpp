@@ -134,7 +134,7 @@ std::vector<std::string> far_notes(const AnyShape& domain,
     const auto away = distance_from(domain, arguments[i], found[i]);
     if (!away) continue;
     if (!diagonal) {
-      const Bounds box = bounding_box(domain.positions());
+      const Box<3> box = bounding_box(domain.positions());
       diagonal =
           std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
     }

@@ -103,32 +103,26 @@ InfoReport info_of(const AnyShape& domain, const io::Tets& solid) {
   json["boundary_faces"] = summary.boundary_faces;
   json["reflex_edges"] = summary.reflex_edges;
   json["reflex_vertices"] = summary.reflex_vertices;
-  json["pinched_edges"] = summary.pinched_edges;
-  json["pinched_vertices"] = summary.pinched_vertices;
-  json["unreferenced_vertices"] = summary.unreferenced_vertices;
-  json["coincident_vertices"] = survey.coincident_vertices;
-  json["degenerate_simplices"] = summary.degenerate_tets;
-  json["inverted_simplices"] = summary.inverted_tets;
+  report.add_count(
+      "pinched_edges", summary.pinched_edges, "pinched edges",
+      " where separate parts of the solid touch in the edge only: paths may pass along "
+      "them");
+  report.add_count("pinched_vertices", summary.pinched_vertices, "pinched vertices",
+                   " where separate parts of the solid touch in one point only");
+  if (summary.components > 1) report.warnings.push_back(components_warning(summary.components));
+  report.add_count("unreferenced_vertices", summary.unreferenced_vertices, "unreferenced vertices",
+                   " in no tetrahedron: unreachable (inf)");
+  report.add_count("coincident_vertices", survey.coincident_vertices, "vertices",
+                   " exactly where another one lies: if the two sides of a cut have their own "
+                   "vertices, paths go round it; --merge 0 joins them");
+  const auto first = [](Index tet) { return ", tetrahedron " + std::to_string(tet) + " first"; };
+  report.add_count("degenerate_simplices", summary.degenerate_tets, "degenerate tetrahedra",
+                   " without volume" + first(summary.first_degenerate));
+  report.add_count("inverted_simplices", summary.inverted_tets, "inverted tetrahedra",
+                   " with negative volume" + first(summary.first_inverted) + ": turned over");
   json["volume"] = json_number(survey.volume);
   table.add("volume", short_number(survey.volume));
   report.add_space(solid.positions, survey.edge);
-
-  report.warn(summary.pinched_edges, "pinched edges",
-              " where separate parts of the solid touch in the edge only: paths may pass along "
-              "them");
-  report.warn(summary.pinched_vertices, "pinched vertices",
-              " where separate parts of the solid touch in one point only");
-  if (summary.components > 1) report.warnings.push_back(components_warning(summary.components));
-  report.warn(summary.unreferenced_vertices, "unreferenced vertices",
-              " in no tetrahedron: unreachable (inf)");
-  report.warn(survey.coincident_vertices, "vertices",
-              " exactly where another one lies: if the two sides of a cut have their own vertices, "
-              "paths go round it; --merge 0 joins them");
-  const auto first = [](Index tet) { return ", tetrahedron " + std::to_string(tet) + " first"; };
-  report.warn(summary.degenerate_tets, "degenerate tetrahedra",
-              " without volume" + first(summary.first_degenerate));
-  report.warn(summary.inverted_tets, "inverted tetrahedra",
-              " with negative volume" + first(summary.first_inverted) + ": turned over");
   report.add_slender(survey.slender_share, "tetrahedra");
   return report;
 }
@@ -194,7 +188,6 @@ InfoReport info_of(const AnyShape& domain, const io::Triangles& surface) {
   SurfaceSummary summary = mesh.summary();
   summary.unreferenced_vertices -= domain.merged_count();
   const SurfaceSurvey survey = survey_surface(surface);
-  const std::size_t coincident = count_coincident(domain);
 
   InfoReport report;
   Json& json = report.json;
@@ -206,28 +199,23 @@ InfoReport info_of(const AnyShape& domain, const io::Triangles& surface) {
   json["simplices"] = summary.faces;
   json["edges"] = summary.edges;
   report.add_components(summary.components, component_sizes(domain));
-  json["boundary_edges"] = summary.boundary_edges;
-  json["non_manifold_edges"] = summary.non_manifold_edges;
-  json["pinched_vertices"] = summary.pinched_vertices;
-  json["unreferenced_vertices"] = summary.unreferenced_vertices;
-  json["coincident_vertices"] = coincident;
-  json["degenerate_simplices"] = summary.degenerate_faces;
+  report.add_count("boundary_edges", summary.boundary_edges, "boundary edges",
+                   ": the surface is open, paths run along its border");
+  report.add_count("non_manifold_edges", summary.non_manifold_edges, "non-manifold edges",
+                   " with more than two triangles: paths may leave into any of them");
+  report.add_count("pinched_vertices", summary.pinched_vertices, "pinched vertices",
+                   " where separate parts of the surface touch in one point only");
+  if (summary.components > 1) report.warnings.push_back(components_warning(summary.components));
+  report.add_count("unreferenced_vertices", summary.unreferenced_vertices, "unreferenced vertices",
+                   " in no triangle: unreachable (inf)");
+  report.add_count(
+      "coincident_vertices", count_coincident(domain), "vertices",
+      " exactly where another one lies: if the two sides of a seam have their own "
+      "vertices, the surface is cut along it and paths go round; --merge 0 joins them");
+  report.add_count("degenerate_simplices", summary.degenerate_faces, "degenerate triangles",
+                   " without area");
   json["orientable"] = summary.orientable;
   report.add_space(surface.positions, survey.edge);
-
-  report.warn(summary.boundary_edges, "boundary edges",
-              ": the surface is open, paths run along its border");
-  report.warn(summary.non_manifold_edges, "non-manifold edges",
-              " with more than two triangles: paths may leave into any of them");
-  report.warn(summary.pinched_vertices, "pinched vertices",
-              " where separate parts of the surface touch in one point only");
-  if (summary.components > 1) report.warnings.push_back(components_warning(summary.components));
-  report.warn(summary.unreferenced_vertices, "unreferenced vertices",
-              " in no triangle: unreachable (inf)");
-  report.warn(coincident, "vertices",
-              " exactly where another one lies: if the two sides of a seam have their own "
-              "vertices, the surface is cut along it and paths go round; --merge 0 joins them");
-  report.warn(summary.degenerate_faces, "degenerate triangles", " without area");
   if (!summary.orientable) report.warnings.emplace_back("not orientable: no harm to distances");
   report.add_slender(survey.slender_share, "triangles");
   add_shape(measure_triangulation(mesh), json, report.table);

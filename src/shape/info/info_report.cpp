@@ -67,7 +67,7 @@ void InfoReport::add_space(std::span<const std::array<double, 3>> positions,
     json["bounding_box"] = nullptr;
     table.add("bounding box", nowhere);
   } else {
-    const Bounds box = bounding_box(positions);
+    const Box<3> box = bounding_box(positions);
     json["bounding_box"] = {{"min", box.low}, {"max", box.high}};
     table.add("bounding box", point_text(box.low) + " to " + point_text(box.high));
   }
@@ -119,7 +119,6 @@ InfoReport info_of(const AnyShape& domain, const io::Edges& wireframe) {
   const std::vector<double> lengths = lengths_of(wireframe);
   const double total = std::accumulate(lengths.begin(), lengths.end(), 0.0);
   const Degrees degrees = degrees_of(wireframe);
-  const std::size_t coincident = count_coincident(domain);
 
   InfoReport report;
   Json& json = report.json;
@@ -136,20 +135,16 @@ InfoReport info_of(const AnyShape& domain, const io::Edges& wireframe) {
   json["ends"] = degrees.ends;
   json["branches"] = degrees.branches;
   json["loops"] = summary.loops;
-  json["unreferenced_vertices"] = summary.unreferenced_vertices;
-  json["coincident_vertices"] = coincident;
-  json["degenerate_simplices"] = summary.zero_length_edges;
+  if (summary.components > 1) report.warnings.push_back(components_warning(summary.components));
+  report.add_count("unreferenced_vertices", summary.unreferenced_vertices, "unreferenced vertices",
+                   " in no edge: unreachable (inf)");
+  report.add_count("coincident_vertices", count_coincident(domain), "vertices",
+                   " exactly where another one lies: edges that meet there are joined only if they "
+                   "name the same vertex; --merge 0 joins them");
+  report.add_count("degenerate_simplices", summary.zero_length_edges, "edges", " without length");
   json["length"] = json_number(total);
   table.add("length", short_number(total));
   report.add_space(wireframe.positions, spread_of(lengths), "none: the file has lengths only");
-
-  if (summary.components > 1) report.warnings.push_back(components_warning(summary.components));
-  report.warn(summary.unreferenced_vertices, "unreferenced vertices",
-              " in no edge: unreachable (inf)");
-  report.warn(coincident, "vertices",
-              " exactly where another one lies: edges that meet there are joined only if they name "
-              "the same vertex; --merge 0 joins them");
-  report.warn(summary.zero_length_edges, "edges", " without length");
   report.warn(summary.loops, "loops", " from a vertex to itself: no path gains by one");
   return report;
 }

@@ -25,6 +25,12 @@ struct InfoReport {
   Table table;
   std::vector<std::string> warnings;
 
+  /// So many of them under `key`, and where there are any what that means.
+  void add_count(const char* key, std::size_t count, std::string_view plural,
+                 const std::string& meaning) {
+    json[key] = count;
+    warn(count, plural, meaning);
+  }
   /// So many of them, where there are any, and what that means.
   void warn(std::size_t count, std::string_view plural, const std::string& meaning) {
     if (count > 0) warnings.push_back(counted(count, plural) + meaning);

@@ -9,15 +9,10 @@
 
 namespace plexway {
 
-Bounds bounding_box(std::span<const std::array<double, 3>> positions) {
-  Bounds box;
-  if (!positions.empty()) box.low = box.high = positions.front();
-  for (const auto& position : positions) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.low[k] = std::min(box.low[k], position[k]);
-      box.high[k] = std::max(box.high[k], position[k]);
-    }
-  }
+Box<3> bounding_box(std::span<const std::array<double, 3>> positions) {
+  if (positions.empty()) return {};
+  auto box = Box<3>::empty();
+  for (const auto& position : positions) box.add(position);
   return box;
 }
 

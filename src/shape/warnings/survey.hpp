@@ -9,15 +9,13 @@
 
 #include <plexway/shape/shape.hpp>
 
+#include "complexes/common/box_tree.hpp"
 #include "complexes/common/disjoint_sets.hpp"
 
 namespace plexway {
 
 /// Bounding box of all vertices; both corners at 0 where there are none.
-struct Bounds {
-  std::array<double, 3> low = {0, 0, 0}, high = {0, 0, 0};
-};
-Bounds bounding_box(std::span<const std::array<double, 3>> positions);
+Box<3> bounding_box(std::span<const std::array<double, 3>> positions);
 
 /// Whether no point is farther from the line through two of them than a ten-millionth of how far
 /// those are apart; one point is none. Cost: linear.

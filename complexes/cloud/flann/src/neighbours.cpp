@@ -8,6 +8,7 @@
 #include <plexway/common/blocks.hpp>
 #include <plexway/error.hpp>
 
+#include "complexes/common/disjoint_sets.hpp"
 #include "rows.hpp"
 #include "search.hpp"
 
@@ -157,28 +158,6 @@ Neighbours of_all_points(const Search& search, const Rows& rows, std::size_t poi
   return result;
 }
 
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count), left_(count) {
-    for (std::size_t i = 0; i < count; ++i) parent_[i] = static_cast<Index>(i);
-  }
-  Index find(Index a) {
-    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-    return a;
-  }
-  void join(Index a, Index b) {
-    a = find(a), b = find(b);
-    if (a == b) return;
-    parent_[std::max(a, b)] = std::min(a, b);
-    --left_;
-  }
-  [[nodiscard]] std::size_t left() const { return left_; }
-
- private:
-  std::vector<Index> parent_;
-  std::size_t left_;
-};
-
 Neighbours neighbours_of(const Search& search, std::size_t points, const NeighbourOptions& options,
                          bool surface) {
   const std::size_t places = search.places().order.size();
@@ -212,8 +191,9 @@ std::optional<std::size_t> connecting_k(Points points, std::size_t most,
   const DistinctPoints& places = search.places();
   const std::size_t n = places.order.size();
   if (n < 2) return 0;
-  Sets sets(points.size());
-  for (Index i = 0; i < points.size(); ++i) sets.join(i, places.first[i]);
+  DisjointSets sets(points.size());
+  for (Index i = 0; i < points.size(); ++i) sets.unite(i, places.first[i]);
+  std::size_t apart = n;
   struct Link {
     std::size_t k;
     Index a, b;
@@ -241,10 +221,8 @@ std::optional<std::size_t> connecting_k(Points points, std::size_t most,
     for (const auto& some : found) links.insert(links.end(), some.begin(), some.end());
     std::stable_sort(links.begin(), links.end(),
                      [](const Link& a, const Link& b) { return a.k < b.k; });
-    for (const Link& link : links) {
-      sets.join(link.a, link.b);
-      if (sets.left() == 1) return link.k;
-    }
+    for (const Link& link : links)
+      if (sets.unite(link.a, link.b) && --apart == 1) return link.k;
   }
   return std::nullopt;
 }

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
+#include "complexes/common/point3.hpp"
+
 namespace plexway::flann {
 namespace {
 
 using Offset = std::array<double, 3>;
-
-double dot(const Offset& a, const Offset& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // The direction in which offsets spread most, by powers of their second moments.
 Offset widest_direction(std::span<const Offset> offsets) {
@@ -27,8 +27,7 @@ Offset widest_direction(std::span<const Offset> offsets) {
   std::size_t row = 0;
   for (std::size_t i = 1; i < 3; ++i)
     if (m[i][i] > m[row][row]) row = i;
-  const double length = std::sqrt(dot(m[row], m[row]));
-  return {m[row][0] / length, m[row][1] / length, m[row][2] / length};
+  return unit(m[row]);
 }
 
 }  // namespace
