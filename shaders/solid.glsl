@@ -12,7 +12,7 @@ const int K = 2;
 //@include kernel/hinge_kernel.inl
 
 const uint none = 0xffffffffu;
-const float face_tolerance = 2e-4, bend_penalty = 1.0 + 32.0 * HINGE_EPSILON;
+const float facet_tolerance = 2e-4, bend_penalty = 1.0 + 32.0 * HINGE_EPSILON;
 
 struct Tet {
   uint across[4];  // what lies over each face: tetrahedron << 2, with the face's number there
@@ -47,9 +47,14 @@ SolidLabel unpack(uvec4 a, uvec4 b) {
 }
 
 uint vertex_of(uint t, uint i) { return tets[t].corner[i]; }
-uint tet_edge(uint i, uint j) {
+uint edge_between(uint i, uint j) {
   uint a = min(i, j), b = max(i, j);
   return b * (b - 1u) / 2u + a;
+}
+uint corner_beyond(uint t, uint face, uint n, uint u, uint i) {
+  uint j = 0u;
+  while (vertex_of(t, j) != vertex_of(u, i)) ++j;
+  return j;
 }
 float squared_edge(uint t, uint e) { return lengths[6u * t + e]; }
 bool reached(uint t) { return (labels[2u * (cell_base + t) + 1u].x & KNOWN) != 0u; }
@@ -58,7 +63,7 @@ SolidLabel label_of(uint t) {
   return unpack(labels[at], labels[at + 1u]);
 }
 
-//@include labels/solid/plain_solid_step.inl
+//@include labels/simplicial/plain_step.inl
 
 /// At least the longest way from the centre to a corner.
 float size_of(uint t) {

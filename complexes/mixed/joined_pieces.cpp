@@ -243,7 +243,7 @@ class Joiner {
   }
 
   // Not where faces contradict each other, and not where the weld leaves a crack, as the wall
-  // around a window: fronts over the faces between pieces (HingeFront) are exact there.
+  // around a window: coordinates do not say on which side of it a source lies.
   [[nodiscard]] bool can_be_built(const std::vector<Index>& pieces) const {
     const Vertices vertices = vertices_of(pieces);
     const auto [points, tets] = solid_of(pieces, vertices);

@@ -14,26 +14,10 @@
 #include "labels/finish.hpp"
 #include "labels/front.hpp"
 
-/// What an executor brings to a solve: a queue for the serial parts, and a scheduler. All that
-/// differs between Serial and OpenMP where labels sit in simplices.
+/// What an executor brings to a solve on a surface: a queue for the serial parts, and a scheduler.
 namespace plexway {
 
-template <bool kLabels, class D, class Real, class Solve>
-void drive(const Serial&, const D& domain, std::span<const PointSource>,
-           const PropagateOptions& options, WorkspaceState<Real>& workspace, const Solve& solve) {
-  workspace.front.reserve(domain.simplex_count());
-  solve(queue_for<Real>(options, workspace.front), Alone{});
-}
-
-/// Complexes of any dimension are one thread's; `solve_each` takes one a source.
-template <bool kLabels, class D, class Real, class Solve>
-void drive(const OpenMP& executor, const D& domain, std::span<const PointSource> sources,
-           const PropagateOptions& options, WorkspaceState<Real>& workspace, const Solve& solve) {
-  const Team team(executor);  // refuses what makes no sense
-  drive<kLabels>(Serial{}, domain, sources, options, workspace, solve);
-}
-
-/// On surfaces a queue of its own for each order: the loop is short.
+/// A queue of its own for each order: the loop is short.
 template <bool kLabels, class Real, class Solve>
 void drive(const Serial&, const TriangleMesh<Real>& mesh, std::span<const PointSource>,
            const PropagateOptions& options, WorkspaceState<Real>& workspace, const Solve& solve) {

@@ -1,10 +1,11 @@
 #include <algorithm>
-#include <functional>
+#include <array>
+#include <iterator>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -12,11 +13,9 @@
 
 #include "complexes/mixed/joined_pieces.hpp"
 #include "executors/checks.hpp"
-#include "executors/mixed_lines.hpp"
 #include "executors/run.hpp"
-#include "executors/threads/crowding.hpp"
 #include "executors/threads/team.hpp"
-#include "labels/mixed/mixed_propagation.hpp"
+#include "labels/mixed/mixed_pieces.hpp"
 #include "strings/mixed_strings.hpp"
 
 namespace plexway {
@@ -74,73 +73,185 @@ void solve_single(const E& executor, const typename MixedComplex<Real>::Complex&
       complex);
 }
 
-// Pieces of several dimensions and speeds, by one thread or a team.
-class Turns {
+// Pieces that have vertices in common: what one of them finds for those is a source of the others.
+template <class Real>
+class PiecesSolve {
  public:
-  Turns(const Serial&, std::size_t) {}
-  Turns(const OpenMP& executor, std::size_t pieces)
-      : team_(executor), watch_(team_->size()), owned_(pieces) {}
+  PiecesSolve(const MixedComplex<Real>& domain, std::vector<WorkspaceState<Real>>& workspaces,
+              const PropagateOptions& options, DistanceField<Real>& field)
+      : domain_(domain), options_(options), field_(field), waiting_(domain.pieces().size()) {
+    workspaces.resize(domain.pieces().size());
+    for (const auto& piece : domain.pieces())
+      pieces_.push_back(
+          std::visit([&](const auto& c) { return detail::make_piece(c, workspaces[piece.number]); },
+                     domain.complex(piece)));
+    welds_.resize(pieces_.size());
+    for (const auto& [v, w] : domain.outer_welds()) {
+      welds_[piece_of(v)].push_back({v, w});
+      welds_[piece_of(w)].push_back({w, v});
+    }
+    find_points();
+    field.distance.assign(domain.vertex_count(), std::numeric_limits<Real>::infinity());
+    field.label.assign(domain.vertex_count(), none);
+    field.statistics = {};
+    field.complete = true;
+  }
 
-  /// While `body` runs its pieces may take their turns at once.
-  template <class Body>
-  void hold(const Body& body) {
-    if (!team_ || team_->size() == 1)
-      body(PiecesAtOnce());
-    else
-      team_->hold([&] {
-        body(PiecesAtOnce([&](std::span<const Index> pieces,
-                              const std::function<void(Index)>& work) { run(pieces, work); }));
-      });
+  void run(std::span<const PointSource> sources) {
+    for (std::size_t n = 0; n < sources.size(); ++n) {
+      const auto [piece, source] = find_piece(domain_, sources[n]);
+      waiting_[piece].push_back({source, static_cast<Index>(n)});
+      // To the last bit, and where no simplex has the vertex.
+      const Index v = sources[n].vertex;
+      const Real offset = static_cast<Real>(sources[n].offset);
+      if (v != none && offset < field_.distance[v])
+        field_.distance[v] = offset, field_.label[v] = static_cast<Index>(n);
+    }
+    while (field_.complete) {
+      const Index next = nearest();
+      if (next == none) break;
+      add(next);
+      tell(next);
+    }
+    for (bool again = true; again;) {
+      again = false;
+      for (const auto& [v, w] : domain_.outer_welds()) again |= take(v, w, 1) || take(w, v, 1);
+    }
   }
 
  private:
-  void run(std::span<const Index> pieces, const std::function<void(Index)>& work) {
-    ++turn_;
-    const double since = seconds_on_wall();
-    team_->run([&](int i, int threads) {
-      watch_->watch(i, [&] {
-        owned_->share(
-            turn_, i, threads, pieces.size(), [&](std::size_t k) { return pieces[k]; },
-            [&](std::size_t k) { work(pieces[k]); });
-      });
-    });
-    watch_->end_turn(seconds_on_wall() - since);
+  [[nodiscard]] Index piece_of(Index vertex) const {
+    const auto after =
+        std::upper_bound(domain_.pieces().begin(), domain_.pieces().end(), vertex,
+                         [](Index v, const auto& piece) { return v < piece.first_vertex; });
+    return std::prev(after)->number;
   }
 
-  std::optional<Team> team_;
-  std::optional<CrowdWatch> watch_;
-  std::optional<OwnedWork> owned_;
-  std::size_t turn_ = 0;
+  // The middle of each edge that two pieces share: paths go over there, too.
+  void find_points() {
+    points_.resize(pieces_.size());
+    std::vector<std::array<Index, 7>> edges;  // pieces, vertices, hinge, and its vertices
+    for (Index n = 0; n < domain_.hinges().size(); ++n) {
+      const auto& hinge = domain_.hinges()[n];
+      for (Index j = 1; j <= hinge.dimension; ++j)
+        for (Index i = 0; i < j; ++i) {
+          const auto [v, w] = std::minmax({corner(n, i), corner(n, j)});
+          edges.push_back({hinge.piece[0], hinge.piece[1], v, w, n, i, j});
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    const auto same = [](const auto& a, const auto& b) {
+      return std::equal(a.begin(), a.begin() + 4, b.begin());
+    };
+    edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+    for (const auto& [one, other, v, w, n, i, j] : edges) {
+      const Index place[2] = {static_cast<Index>(points_[one].at.size()),
+                              static_cast<Index>(points_[other].at.size())};
+      for (const std::size_t side : {0, 1}) {
+        SharedPoints& own = points_[side == 0 ? one : other];
+        own.number.push_back(static_cast<Index>(known_.size()));
+        own.partner.push_back({side == 0 ? other : one, place[1 - side]});
+        const auto& m = member(n, side);
+        PointSource& at = own.at.emplace_back(PointSource{.simplex = m.simplex});
+        at.barycentric[m.corner[i]] = at.barycentric[m.corner[j]] = .5;
+      }
+      known_.emplace_back();
+    }
+  }
+  [[nodiscard]] const auto& member(Index hinge, std::size_t side) const {
+    return domain_.members()[domain_.hinges()[hinge].begin[side]];
+  }
+  // A vertex of a hinge, by its number inside the first piece.
+  [[nodiscard]] Index corner(Index hinge, std::size_t i) const {
+    const auto& m = member(hinge, 0);
+    const auto& complex = domain_.complex(domain_.pieces()[domain_.hinges()[hinge].piece[0]]);
+    if (const auto* surface = std::get_if<TriangleMesh<Real>>(&complex))
+      return surface->triangles()[m.simplex].corner[m.corner[i]];
+    return std::get<TetMesh<Real>>(complex).tets()[m.simplex].corner[m.corner[i]];
+  }
+
+  // The piece in which the nearest source waits.
+  [[nodiscard]] Index nearest() const {
+    Index nearest = none;
+    double least = std::numeric_limits<double>::infinity();
+    for (Index p = 0; p < pieces_.size(); ++p)
+      for (const auto& source : waiting_[p])
+        if (nearest == none || source.at.offset < least) nearest = p, least = source.at.offset;
+    return nearest;
+  }
+
+  void add(Index number) {
+    const auto& piece = domain_.pieces()[number];
+    const PropagateStatistics before = field_.statistics;
+    PropagateOptions options = options_;
+    options.max_expansions -= before.expansions;
+    if (options_.progress)
+      options.progress = [&](const Progress& of_piece) {
+        const std::size_t all = domain_.simplex_count();
+        return options_.progress({before.expansions + of_piece.expansions,
+                                  std::min(before.reached_simplices + of_piece.reached, all), all,
+                                  of_piece.distance});
+      };
+    const auto sources = std::exchange(waiting_[number], {});
+    const PropagateStatistics took = pieces_[number]->add(sources, options, field_.complete);
+    field_.statistics.expansions += took.expansions;
+    field_.statistics.updates += took.updates;
+    field_.statistics.reached_simplices += took.reached_simplices;
+    field_.statistics.raised_vertices += took.raised_vertices;
+    field_.statistics.lowered_vertices += took.lowered_vertices;
+    pieces_[number]->read_out(
+        std::span(field_.distance).subspan(piece.first_vertex, piece.vertices),
+        std::span(field_.label).subspan(piece.first_vertex, piece.vertices));
+  }
+
+  // What others gain at vertices that they have in common with a piece; by more than rounding, else
+  // that would go to and fro for ever.
+  void tell(Index number) {
+    constexpr Real gain = 1 - 64 * std::numeric_limits<Real>::epsilon();
+    for (const auto& [own, other] : welds_[number]) {
+      if (static_cast<double>(field_.distance[own]) > options_.radius || !take(own, other, gain))
+        continue;
+      const auto& piece = domain_.pieces()[piece_of(other)];
+      PointSource source = PointSource::at(other - piece.first_vertex);
+      source.offset = static_cast<double>(field_.distance[own]);
+      waiting_[piece.number].push_back({source, field_.label[own]});
+    }
+    const SharedPoints& own = points_[number];
+    std::vector<detail::MixedFound> found(own.at.size());
+    pieces_[number]->read_out(own.at, found);
+    for (std::size_t n = 0; n < found.size(); ++n) {
+      detail::MixedFound& known = known_[own.number[n]];
+      if (!(found[n].distance < known.distance * static_cast<double>(gain)) ||
+          found[n].distance > options_.radius)
+        continue;
+      known = found[n];
+      const auto [piece, other] = own.partner[n];
+      PointSource source = points_[piece].at[other];
+      source.offset = found[n].distance;
+      waiting_[piece].push_back({source, found[n].source, true});
+    }
+  }
+  bool take(Index from, Index to, Real gain) {
+    if (!(field_.distance[from] < field_.distance[to] * gain)) return false;
+    field_.distance[to] = field_.distance[from];
+    field_.label[to] = field_.label[from];
+    return true;
+  }
+
+  const MixedComplex<Real>& domain_;
+  const PropagateOptions& options_;
+  DistanceField<Real>& field_;
+  std::vector<std::unique_ptr<detail::MixedPiece<Real>>> pieces_;
+  std::vector<std::vector<detail::MixedSource>> waiting_;  // by piece
+  std::vector<std::vector<std::array<Index, 2>>> welds_;   // by piece: of its vertices
+  struct SharedPoints {
+    std::vector<PointSource> at;                   // inside
+    std::vector<Index> number;                     // in known_
+    std::vector<std::pair<Index, Index>> partner;  // the other piece, and the point there
+  };
+  std::vector<SharedPoints> points_;  // by piece
+  std::vector<detail::MixedFound> known_;
 };
-
-// On a domain whose pieces are joined.
-template <class Real>
-void solve_pieces(const MixedComplex<Real>& domain, std::span<const PointSource> sources,
-                  const PropagateOptions& options, WorkspaceState<Real>& workspace,
-                  const PiecesAtOnce& at_once, DistanceField<Real>& field) {
-  workspace.parts.resize(domain.pieces().size());
-  MixedPropagation<Real> propagation(domain, workspace.parts, workspace.offered, options, at_once);
-  for (std::size_t n = 0; n < sources.size(); ++n) {
-    const auto [piece, source] = find_piece(domain, sources[n]);
-    propagation.seed(piece, source, static_cast<Index>(n));
-  }
-  propagation.run();
-  propagation.read_out(field);
-
-  for (std::size_t n = 0; n < sources.size(); ++n) {
-    const Index v = sources[n].vertex;
-    const Real offset = static_cast<Real>(sources[n].offset);
-    if (v != none && offset < field.distance[v])
-      field.distance[v] = offset, field.label[v] = static_cast<Index>(n);
-  }
-  propagation.settle(field);
-  const Real infinity = std::numeric_limits<Real>::infinity();
-  for (std::size_t v = 0; v < field.distance.size(); ++v)
-    if (!(static_cast<double>(field.distance[v]) <= options.radius))
-      field.distance[v] = infinity, field.label[v] = none;
-    else if (!(field.distance[v] < infinity))
-      field.label[v] = none;
-}
 
 template <class E, class Real>
 void solve_joined(E executor, const MixedComplex<Real>& domain,
@@ -152,9 +263,13 @@ void solve_joined(E executor, const MixedComplex<Real>& domain,
                           field);
     return;
   }
-  Turns(executor, domain.pieces().size()).hold([&](const PiecesAtOnce& at_once) {
-    solve_pieces(domain, sources, options, kept.state(), at_once, field);
-  });
+  if constexpr (E::kind == ExecutorKind::openmp) const Team team(executor);  // may refuse
+  PiecesSolve<Real>(domain, kept.state().parts, options, field).run(sources);
+  for (std::size_t v = 0; v < field.distance.size(); ++v) {
+    if (static_cast<double>(field.distance[v]) <= options.radius) continue;
+    field.distance[v] = std::numeric_limits<Real>::infinity();
+    field.label[v] = none;
+  }
 }
 
 }  // namespace
@@ -200,10 +315,6 @@ void solve_points(const E& executor, const MixedComplex<Real>& domain,
   } else {
     solve_joined(executor, domain, sources, options, kept, field);
   }
-  // A single piece knows its own lines.
-  if ((joined ? joined->domain : domain).pieces().size() > 1)
-    field.statistics.raised_vertices +=
-        MixedPlaces<Real>(domain).raise(sources, options.radius, field);
   if (sources.size() == 1) field.label.clear();
 }
 

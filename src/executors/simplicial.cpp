@@ -1,7 +1,6 @@
 #include "executors/checks.hpp"
-#include "executors/drive.hpp"
 #include "executors/run.hpp"
-#include "executors/solve_simplicial.hpp"
+#include "executors/solve_simplices.hpp"
 #include "strings/flat_strings.hpp"
 
 namespace plexway {
@@ -50,10 +49,7 @@ void solve_points(const E& executor, const SimplicialComplex<Real, N>& domain,
       }
       return;
     }
-  drive<true>(executor, domain, sources, options, workspace,
-              [&](auto queue, const auto& scheduler) {
-                simplicial::solve(domain, sources, options, workspace, queue, scheduler, field);
-              });
+  detail::solve_simplices(executor, domain, sources, options, workspace, field);
 }
 
 PLEXWAY_SIMPLICES(PLEXWAY_COMPILE_HERE)

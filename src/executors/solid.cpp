@@ -1,9 +1,7 @@
 #include "executors/checks.hpp"
-#include "executors/drive.hpp"
 #include "executors/run.hpp"
-#include "executors/solve_solid.hpp"
+#include "executors/solve_simplices.hpp"
 #include "executors/supported.hpp"
-#include "executors/threads/owned_scheduler.hpp"
 #include "strings/solid_strings.hpp"
 
 namespace plexway {
@@ -22,10 +20,7 @@ void solve_points(const E& executor, const TetMesh<Real>& mesh,
     return;
   }
   workspace.pieces.counts().start();
-  drive<true>(executor, mesh, sources, options, workspace, [&](auto queue, const auto& scheduler) {
-    solid::solve_with<Real, true>(mesh, sources, options, workspace, queue, scheduler, field);
-  });
-  if (sources.size() == 1) field.label.clear();
+  detail::solve_simplices(executor, mesh, sources, options, workspace, field);
   workspace.pieces.counts().tell(field.statistics);
 }
 

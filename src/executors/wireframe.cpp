@@ -26,31 +26,13 @@ template <class Real, class Step, bool kLabels>
 void solve_alone(const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
                  const PropagateOptions& options, WorkspaceState<Real>& workspace,
                  DistanceField<Real>& field) {
+  start_wires<kLabels>(wireframe, workspace);
   WirePropagation<Real, Step, kLabels> propagation(wireframe, workspace, options);
-  constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-  const auto start = [&](auto& front) {
+  workspace.front.reserve(wireframe.vertex_count());
+  propagation.run(workspace.front, [&](auto& front) {
     for (std::size_t n = 0; n < sources.size(); ++n)
       propagation.seed(sources[n], static_cast<Index>(n), front);
-  };
-  workspace.front.reserve(wireframe.vertex_count());
-  if (options.schedule == Schedule::priority) {
-    PriorityQueue<Real> front(workspace.front);
-    start(front);
-    propagation.spread(front, unlimited);
-  } else if (options.schedule == Schedule::fifo) {
-    DualQueue<Real> front(workspace.front, std::numeric_limits<Real>::infinity());
-    start(front);
-    propagation.spread(front, unlimited);
-  } else {
-    DualQueue<Real> front(workspace.front,
-                          static_cast<Real>(options.step * wireframe.typical_edge()));
-    start(front);
-    if (!propagation.spread(front, wire_patience * wireframe.arcs().size())) {
-      PriorityQueue<Real> nearest_first(workspace.front);
-      propagation.hand_over(nearest_first);
-      propagation.spread(nearest_first, unlimited);
-    }
-  }
+  });
   propagation.read_out(sources, Alone{}, field);
 }
 
@@ -109,6 +91,7 @@ void solve_in_pieces(const Team& team, const Wireframe<Real>& wireframe,
                      WorkspaceState<Real>& workspace, WirePieces<Real>& kept,
                      DistanceField<Real>& field) {
   using Piece = WirePiece<Real, Step, kLabels>;
+  start_wires<kLabels>(wireframe, workspace);
   WirePropagation<Real, Step, kLabels> propagation(wireframe, workspace, options);
   Seeds<Real> seeds;
   for (std::size_t i = 0; i < sources.size(); ++i)

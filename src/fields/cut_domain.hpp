@@ -52,23 +52,17 @@ struct CutDomain {
   }
 };
 
-/// `limits`: the longest edge wanted at each vertex, in the unit inside. Throws TooManyParts where
-/// that makes more than `most` simplices.
-template <class Real>
-CutDomain<TriangleMesh<Real>> cut(const TriangleMesh<Real>& mesh, std::vector<double> limits,
-                                  std::size_t most = most_parts);
-template <class Real>
-CutDomain<TetMesh<Real>> cut(const TetMesh<Real>& mesh, std::vector<double> limits,
-                             std::size_t most = most_parts);
+/// A box and what lies within `width` of it, in the unit inside.
+struct Near {
+  Box<3> box;
+  double width;
+};
 
-/// A copy of what lies within `width` of a box, in any case; what sticks out of that is cut more
-/// and more coarsely. Of a domain that has places.
-template <class Real>
-CutDomain<TriangleMesh<Real>> cut_near(const TriangleMesh<Real>& mesh,
-                                       std::span<const double> limits, const Box<3>& box,
-                                       double width, std::size_t most);
-template <class Real>
-CutDomain<TetMesh<Real>> cut_near(const TetMesh<Real>& mesh, std::span<const double> limits,
-                                  const Box<3>& box, double width, std::size_t most);
+/// `limits`: the longest edge wanted at each vertex, in the unit inside. Throws TooManyParts where
+/// that makes more than `most` simplices. With `near` a copy of what lies there, in any case; what
+/// sticks out of that is cut more and more coarsely. Then the domain must have places.
+template <class Complex>
+CutDomain<Complex> cut(const Complex& complex, std::span<const double> limits,
+                       std::size_t most = most_parts, const Near* near = nullptr);
 
 }  // namespace plexway

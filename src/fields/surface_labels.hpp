@@ -48,9 +48,6 @@ class SurfaceLabels {
   [[nodiscard]] double corner_distance(Index f, std::size_t i) const {
     return ask([&](const auto& rule) { return static_cast<double>(rule.corner_distance(f, i)); });
   }
-  [[nodiscard]] double centre_distance(Index f) const {
-    return ask([&](const auto& rule) { return static_cast<double>(rule.distance(f)); });
-  }
 
   /// What the label's path to a point q of f looks like from there. In a plane with the edge it
   /// came in by on the x axis, first corner at 0, and f above. Unit inside.
@@ -115,18 +112,6 @@ class SurfaceLabels {
     if (from.h >= 0 && crossing < -slack && elsewhere({0, 0})) bend = {0, 0};
     if (from.h >= 0 && crossing > length + slack && elsewhere({length, 0})) bend = {length, 0};
     return {source, bend};
-  }
-
-  /// Does the path of the label come from corner i of its own triangle?
-  [[nodiscard]] bool starts_at(Index f, std::size_t i) const {
-    const TriangleRecord<Real>& t = mesh_.triangles()[f];
-    const std::size_t in = hinge(f);
-    Vector2 corner = {0, 0};
-    if (i == edge_after(in)) corner = {static_cast<double>(t.length[in]), 0};
-    if (i == edge_before(in))
-      corner = {static_cast<double>(t.apex_x(in)), static_cast<double>(t.apex_h(in))};
-    const double size = static_cast<double>(std::max({t.length[0], t.length[1], t.length[2]}));
-    return norm(virtual_source(f) - corner) <= 1e-4 * size;  // as rounding of labels leaves it
   }
 
  private:

@@ -136,12 +136,15 @@ OpenedFile::OpenedFile(const std::filesystem::path& file) : name_(file.string())
   if (input_.extension == ".gz") input_.extension = lower_extension(input_.file.stem());
 }
 
+OpenedFile::OpenedFile(const std::filesystem::path& file, std::string_view bytes)
+    : OpenedFile(file) {
+  bytes_ = bytes;
+}
+
 std::string_view OpenedFile::bytes() const {
-  if (!bytes_) {
-    bytes_.emplace(name_);
-    if (bytes_->view().starts_with("\x1F\x8B")) unpacked_ = unpacked(bytes_->view(), name_);
-  }
-  return unpacked_.empty() ? bytes_->view() : unpacked_;
+  if (!bytes_) bytes_ = file_.emplace(name_).view();
+  if (unpacked_.empty() && bytes_->starts_with("\x1F\x8B")) unpacked_ = unpacked(*bytes_, name_);
+  return unpacked_.empty() ? *bytes_ : unpacked_;
 }
 
 }  // namespace plexway::io

@@ -34,6 +34,8 @@ class FileBytes {
 class OpenedFile {
  public:
   explicit OpenedFile(const std::filesystem::path& file);
+  /// What has been read already, `bytes`, which are referred to.
+  OpenedFile(const std::filesystem::path& file, std::string_view bytes);
 
   /// As given, for messages.
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -46,7 +48,8 @@ class OpenedFile {
  private:
   std::string name_;
   InputName input_;
-  mutable std::optional<FileBytes> bytes_;
+  mutable std::optional<FileBytes> file_;
+  mutable std::optional<std::string_view> bytes_;
   mutable std::string unpacked_;
 };
 

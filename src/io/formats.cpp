@@ -39,7 +39,7 @@ Mixed surface_of(View bytes, View name) {
 }
 
 Mixed gltf_of(View bytes, View name) {
-  return parse_gltf_files(bytes, name, [&](const std::string& uri) {
+  return parse_gltf(bytes, name, [&](const std::string& uri) {
     // Beside it, as exporters write them, with nothing but letters to decode.
     std::string file;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -73,7 +73,7 @@ constexpr Row table[] = {
       "before "
       "their vertices; a backslash joins a line to the next",
       "every other statement; a fourth coordinate, colours"},
-     parse_obj_cells},
+     parse_obj},
     {{".off", "Object File Format", FileReader::cells, surface,
       "ascii; `OFF` and its variants with `ST`, `C`, `N` in front, or no keyword at all; counts on "
       "the keyword's line or the next; the edge count may be missing",
@@ -87,7 +87,7 @@ constexpr Row table[] = {
       "any order; `face` and `tristrips` (-1 between strips) with `vertex_indices` or "
       "`vertex_index`, `edge` with `vertex1` and `vertex2`; of clouds `nx ny nz`",
       "all other elements and properties, lists too"},
-     parse_ply_cells,
+     parse_ply,
      parse_ply_points,
      begins_ply},
     {{".stl", "STL", FileReader::cells, surface,
@@ -121,27 +121,27 @@ constexpr Row table[] = {
     {{".mesh", "MEDIT", FileReader::cells, any,
       "ascii, of dimension 2 or 3; sections in any order; cells of first and second order",
       "references, normals, tangents, marks; `.meshb` is refused"},
-     parse_medit_cells,
+     parse_medit,
      nullptr,
      begins<medit_word>},
     {{".msh", "Gmsh", FileReader::cells, any,
       "2.0 to 2.2 and 4.1, ascii and binary of either byte order; any node tags; entity blocks; "
       "comments and other sections anywhere",
       "all other sections; versions 1 and 4.0, and `$ParametricNodes`, are refused"},
-     parse_gmsh_cells,
+     parse_gmsh,
      nullptr,
      begins<gmsh_sign>},
     {{".vtu .vtp", "VTK's XML, grids and polygons", FileReader::cells, any,
       "ascii, base64, appended raw and base64; either byte order; any number types; several "
       "pieces; compressed by zlib, LZ4 or LZMA; cells of any order",
       "fields"},
-     parse_vtu_cells,
+     parse_vtu,
      nullptr,
      has_early<vtk_tag>},
     {{".vtk", "VTK's legacy files", FileReader::cells, any,
       "ascii and binary, up to 5.1, `UNSTRUCTURED_GRID` and `POLYDATA`; cells of any order",
       "fields"},
-     parse_vtk_cells,
+     parse_vtk,
      nullptr,
      begins<vtk_line>},
     {{".glb .gltf", "glTF 2.0", FileReader::cells, surface | wires | cloud,
@@ -288,14 +288,28 @@ Mixed read_cells(const std::filesystem::path& path) {
   return cells_of(file, row_of(file));
 }
 
-Points read_points(const std::filesystem::path& path) {
-  const OpenedFile file(path);
+Mixed parse_cells(std::string_view bytes, const std::filesystem::path& name) {
+  const OpenedFile file(name, bytes);
+  return cells_of(file, row_of(file));
+}
+
+namespace {
+
+Points points_of(const OpenedFile& file) {
   refuse_pcd(file.extension(), file.name());
   const Row& row = row_of(file);
   if (row.points != nullptr) return row.points(file.bytes(), file.name());
   Mixed cells = cells_of(file, row);
   if (cells.positions.empty()) throw InputError(file.name() + ": has no points");
   return {std::move(cells.positions), {}, {}, std::move(cells.report)};
+}
+
+}  // namespace
+
+Points read_points(const std::filesystem::path& path) { return points_of(OpenedFile(path)); }
+
+Points parse_points(std::string_view bytes, const std::filesystem::path& name) {
+  return points_of(OpenedFile(name, bytes));
 }
 
 Triangles read_triangles(const std::filesystem::path& file) {

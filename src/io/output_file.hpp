@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 #include "file/new_file.hpp"
 #include "io/numbers.hpp"
@@ -28,17 +30,33 @@ class OutputFile {
 
   /// The shortest decimal text that reads back as `value`; "inf" for infinity.
   template <class Number>
-  void write_text(Number value) {
+  requires std::is_arithmetic_v<Number>
+  void write(Number value) {
     std::array<char, 32> text;
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    write({text.data(), static_cast<std::size_t>(end - text.data())});
+    write(std::string_view(text.data(), static_cast<std::size_t>(end - text.data())));
+  }
+
+  /// Texts and numbers, one after the other.
+  template <class First, class Second, class... Rest>
+  void write(const First& first, const Second& second, const Rest&... rest) {
+    write(first);
+    write(second);
+    (write(rest), ...);
+  }
+
+  /// As text, with `between` between two.
+  template <class Numbers>
+  void write_row(const Numbers& numbers, std::string_view between) {
+    bool first = true;
+    for (const auto number : numbers) write(std::exchange(first, false) ? "" : between, number);
   }
 
   /// The bytes of `value`, little endian.
   template <class Number>
   void write_binary(Number value) {
     const auto bytes = little_endian(value);
-    write({bytes.data(), bytes.size()});
+    write(std::string_view(bytes.data(), bytes.size()));
   }
 
   /// The bytes of `value`, big endian.
@@ -46,7 +64,7 @@ class OutputFile {
   void write_big_endian(Number value) {
     auto bytes = little_endian(value);
     std::reverse(bytes.begin(), bytes.end());
-    write({bytes.data(), bytes.size()});
+    write(std::string_view(bytes.data(), bytes.size()));
   }
 
   /// Hands all to the system: what is left to do can hardly fail.

@@ -1,8 +1,8 @@
-#include <plexway/io/simplices.hpp>
 
 #include <string>
 
 #include "io/file_bytes.hpp"
+#include "io/readers.hpp"
 #include "io/text_scanner.hpp"
 
 namespace plexway::io {

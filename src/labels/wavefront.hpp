@@ -153,9 +153,6 @@ class Wavefront {
     countdown_ = expansions;
   }
 
-  /// No more than so many from now on, of what was granted.
-  void withdraw_all_but(std::size_t expansions) { grant(std::min(countdown_, expansions)); }
-
   /// Grants the next share of the budget and reports progress. `distance` is where the front is.
   /// False if the budget is spent. Throws Cancelled, and EndlessError.
   bool take_stock(Real distance) {

@@ -13,7 +13,6 @@
 #include "labels/piece_memory.hpp"
 #include "labels/plain_label.hpp"
 #include "labels/simplicial/simplex_label.hpp"
-#include "labels/solid/plain_solid_label.hpp"
 #include "labels/surface/lowering_rooms.hpp"
 #include "labels/surface/saddle_label.hpp"
 #include "windows/window_memory.hpp"
@@ -35,12 +34,11 @@ template <class Real>
 struct WorkspaceState {
   /// Which simplices have a label.
   VisitMarks marks;
-  LabelStorage<SaddleLabel<Real>> saddles;           ///< Visibility::saddles
-  LabelStorage<PlainLabel<Real>> plain;              ///< the other policies
-  LabelStorage<PlainSolidLabel<Real>> plain_solids;  ///< in solids: the other policies
-  SimplexLabels<Real> simplex;                       ///< SimplicialComplex
-  std::vector<Index> source;   ///< nearest source a simplex; empty for one source
-  WindowMemory<Real> windows;  ///< on surfaces: accuracies but `fast`
+  LabelStorage<SaddleLabel<Real>> saddles;  ///< Visibility::saddles
+  LabelStorage<PlainLabel<Real>> plain;     ///< the other policies
+  SimplexLabels<Real> simplex;              ///< SimplicialComplex
+  std::vector<Index> source;                ///< nearest source a simplex; empty for one source
+  WindowMemory<Real> windows;               ///< on surfaces: accuracies but `fast`
   /// The queues.
   FrontStorage front;
   PieceMemory<Real> pieces;                       ///< for executors with several threads
@@ -49,12 +47,7 @@ struct WorkspaceState {
   std::shared_ptr<SolidStrings> strings;          ///< in solids: strings/solid_strings.hpp
   std::vector<Index> corners;                     ///< around one vertex
   std::unique_ptr<LoweringRooms<Real>> lowering;  ///< read_out_edges
-  ///@{
-  /// On mixed domains: one a piece that is propagated on, and what a member of a hinge has offered
-  /// already.
-  std::vector<WorkspaceState> parts;
-  std::vector<Real> offered;
-  ///@}
+  std::vector<WorkspaceState> parts;              ///< on mixed domains: one a piece
   std::shared_ptr<MixedStrings> media;        ///< likewise, by strings: strings/mixed_strings.hpp
   std::shared_ptr<FlatSolve> flat;            ///< flat complexes of two or three dimensions
   std::shared_ptr<FlatStrings> flat_strings;  ///< of four: strings/flat_strings.hpp
@@ -73,9 +66,8 @@ struct WorkspaceState {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
     std::size_t of_parts = 0;
     for (const WorkspaceState& part : parts) of_parts += part.bytes();
-    return of_parts + of(offered) + sizeof(*this) + marks.bytes() +
-           saddles.count * sizeof(SaddleLabel<Real>) + plain.count * sizeof(PlainLabel<Real>) +
-           plain_solids.count * sizeof(PlainSolidLabel<Real>) + simplex.bytes() +
+    return of_parts + sizeof(*this) + marks.bytes() + saddles.count * sizeof(SaddleLabel<Real>) +
+           plain.count * sizeof(PlainLabel<Real>) + simplex.bytes() +
            (flat ? flat->workspace.bytes() + of(flat->field.distance) : 0) + of(source) +
            windows.bytes() + of(vertex) + of(vertex_source) + of(corners) +
            (lowering ? sizeof(*lowering) + lowering->bytes() : 0) +

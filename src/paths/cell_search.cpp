@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
-#include <unordered_map>
 #include <utility>
 
 #include "paths/infinity.hpp"
@@ -16,19 +15,30 @@ double apart(const Point3& a, const Point3& b) {
   return std::sqrt(dot(d, d));
 }
 
-struct FaceHash {
-  std::size_t operator()(const CellFace& face) const {
-    std::uint64_t h = face.corners;
-    for (const Index v : face.vertex) h = (h ^ v) * 0x9e3779b97f4a7c15ull, h ^= h >> 29;
-    return static_cast<std::size_t>(h);
+// So many points an edge, evenly; those inside a triangle are as far apart.
+FacePlaces even_places(std::size_t corners, std::size_t places) {
+  FacePlaces found;
+  const std::size_t n = places + 1;
+  const auto step = 1 / static_cast<double>(n);
+  const auto share = [&](std::size_t i) { return static_cast<double>(i) * step; };
+  for (std::size_t i = 1; i < n; ++i) {
+    if (corners == 2) found.push_back({1 - share(i), share(i), 0});
+    for (std::size_t j = 1; corners == 3 && i + j < n; ++j)
+      found.push_back({1 - share(i + j), share(i), share(j)});
   }
-};
+  return found;
+}
 
 class Search {
  public:
+  // In all cells, or in a corridor.
   Search(const Cells& all, std::span<const double> distance, std::span<const CellGoal> goals,
-         std::size_t places)
-      : all_(all), distance_(distance), goals_(goals), places_(places) {
+         std::size_t places, const Corridor* corridor = nullptr)
+      : all_(all),
+        distance_(distance),
+        goals_(goals),
+        even_{FacePlaces{{1, 0, 0}}, even_places(2, places), even_places(3, places)},
+        corridor_(corridor) {
     for (std::size_t n = 0; n < goals.size(); ++n) {
       const CellPoint& at = goals[n].point;
       if (at.vertex != none)
@@ -42,8 +52,7 @@ class Search {
     if (start.vertex != none) {
       CellFace face;
       face.add(start.vertex);
-      const auto& found = open_face(face, none);
-      offer(found.first, 0, none, none);
+      if (const Face& found = open_face(face); found.count > 0) offer(found.first, 0, none, none);
     } else {
       expand(none, 0, start.cell, place_in(all_.cell(start.cell), start.at));
     }
@@ -83,44 +92,34 @@ class Search {
   };
 
   // A face's nodes, made when it is met first.
-  Face& open_face(const CellFace& key, Index) {
+  Face& open_face(const CellFace& key) {
     const auto [it, is_new] = faces_.try_emplace(key);
     Face& face = it->second;
     if (!is_new) return face;
     face.face = key;
     all_.around(key, face.cells);
+    if (corridor_ != nullptr)
+      std::erase_if(face.cells, [&](Index c) { return !corridor_->cells.contains(c); });
     face.first = static_cast<Index>(nodes_.size());
     const auto add = [&](const std::array<double, 3>& at) {
-      Node node;
-      node.face = &face;
-      node.at = at;
-      node.left = least_left(face, at);
-      nodes_.push_back(node);
+      nodes_.push_back({.face = &face, .at = at, .left = least_left(face, at)});
       ++face.count;
     };
-    if (key.corners == 1) {
-      add({1, 0, 0});
-    } else if (face.cells.size() > 1) {  // else nothing leads over it
-      const auto step = 1 / static_cast<double>(places_ + 1);
-      if (key.corners == 2) {
-        for (std::size_t i = 1; i <= places_; ++i) {
-          const double s = static_cast<double>(i) * step;
-          add({1 - s, s, 0});
-        }
-      } else {
-        const std::size_t n = places_ + 1;
-        for (std::size_t i = 1; i < n; ++i)
-          for (std::size_t j = 1; i + j < n; ++j)
-            add({1 - static_cast<double>(i + j) * step, static_cast<double>(i) * step,
-                 static_cast<double>(j) * step});
-        if (n == 2) add({1. / 3, 1. / 3, 1. / 3});
-      }
-    }
+    if (key.corners == 1 || face.cells.size() > 1)  // else nothing leads over it
+      for (const auto& at : places_on(key)) add(at);
     return face;
+  }
+
+  [[nodiscard]] const FacePlaces& places_on(const CellFace& key) const {
+    static const FacePlaces nowhere;
+    if (corridor_ == nullptr) return even_[key.corners - 1];
+    const auto found = corridor_->places.find(key);
+    return found == corridor_->places.end() ? nowhere : found->second;
   }
 
   // By the triangle inequality from the corners of one cell that has the face.
   double least_left(const Face& face, const std::array<double, 3>& at) const {
+    if (corridor_ != nullptr) return 0;
     if (face.face.corners == 1) return distance_[face.face.vertex[0]];
     const Cell cell = all_.cell(face.cells[0]);
     std::array<double, 4> in_cell = {};
@@ -154,7 +153,7 @@ class Search {
         key.add(own.cell.vertex[i]);
       }
       if (twice) continue;
-      const Face& face = open_face(key, number);
+      const Face& face = open_face(key);
       for (Index n = face.first; n < face.first + face.count; ++n) {
         std::array<double, 4> at = {};
         for (std::size_t i = 0; i < corners; ++i)
@@ -242,9 +241,10 @@ class Search {
   const Cells& all_;
   std::span<const double> distance_;
   std::span<const CellGoal> goals_;
-  std::size_t places_;
+  std::array<FacePlaces, 3> even_;  // of vertices, edges, triangles
+  const Corridor* corridor_;
   std::unordered_map<Index, std::vector<std::size_t>> goals_at_vertex_, goals_in_cell_;
-  std::unordered_map<CellFace, Face, FaceHash> faces_;  // whose elements stay where they are
+  std::unordered_map<CellFace, Face, Corridor::Hash> faces_;  // whose elements stay where they are
   std::unordered_map<Index, CellNodes> cells_;
   std::vector<Node> nodes_;
   std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>,
@@ -261,6 +261,11 @@ std::optional<CellWay> search_cells(const Cells& all, std::span<const double> di
                                     std::span<const CellGoal> goals, const CellPoint& start,
                                     std::size_t places) {
   return Search(all, distance, goals, places).find(start);
+}
+
+std::optional<CellWay> search_cells(const Cells& all, const Corridor& corridor,
+                                    std::span<const CellGoal> goals, const CellPoint& start) {
+  return Search(all, {}, goals, 0, &corridor).find(start);
 }
 
 }  // namespace plexway

@@ -245,10 +245,21 @@ std::array<double, 4> CellString::place(const Cell& cell, std::size_t k) const {
   return at;
 }
 
+std::array<std::array<double, 4>, 2> CellString::leg(const Cell& cell, std::size_t k) const {
+  std::array<std::array<double, 4>, 2> ends = {k == 0 ? start : place(cell, k - 1),
+                                               k + 1 == cells.size() ? end : place(cell, k)};
+  if (cell.corners == 2 && cell.vertex[0] == cell.vertex[1])  // a loop: to the nearer of its ends
+    for (const std::size_t i : {0, 1})
+      if (ends[i][0] == 1 || ends[i][1] == 1) {
+        const bool second = ends[1 - i][1] > .5;
+        ends[i] = {second ? 0. : 1., second ? 1. : 0.};
+      }
+  return ends;
+}
+
 double CellString::length(const Cells& all, std::size_t k) const {
   const Cell cell = all.cell(cells[k]);
-  const auto from = k == 0 ? start : place(cell, k - 1);
-  const auto to = k + 1 == cells.size() ? end : place(cell, k);
+  const auto [from, to] = leg(cell, k);
   return norm(minus(place_in(cell, to), place_in(cell, from)));
 }
 

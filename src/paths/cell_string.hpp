@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "sampling/cells.hpp"
+#include "paths/cells.hpp"
 
 namespace plexway {
 
@@ -20,7 +20,9 @@ struct CellString {
   std::array<double, 4> start = {}, end = {};  ///< points of the first and of the last cell
   std::vector<CellCrossing> crossings;         ///< between cells k and k + 1
 
-  /// Of leg k, in cell k.
+  /// The ends of leg k, in cell k.
+  [[nodiscard]] std::array<std::array<double, 4>, 2> leg(const Cell& cell, std::size_t k) const;
+  /// Of leg k.
   [[nodiscard]] double length(const Cells& all, std::size_t k) const;
   [[nodiscard]] double length(const Cells& all) const;
   /// Of crossing k, as coordinates in a cell that has its face.

@@ -10,7 +10,7 @@
 #include <plexway/paths/path.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "sampling/cells.hpp"
+#include "paths/cells.hpp"
 
 namespace plexway {
 
@@ -20,6 +20,7 @@ struct CellField {
   std::span<const double> distance;                  ///< by number in Cells
   std::span<const PointSource> sources;              ///< those that it is the field of
   std::span<const std::array<double, 3>> positions;  ///< one a vertex of the domain; may be empty
+  bool in_space = false;  ///< are lengths those between positions, if there are some?
 };
 
 /// A field's distances by number in Cells.
@@ -34,9 +35,10 @@ std::vector<double> cell_distances(const Cells& cells, std::span<const Real> fie
 }
 
 /// A shortest path from vertices' distances alone: the shortest way over places in the cells
-/// (search_cells), pulled taut and improved around what holds it. Where that is longer by more than
-/// 5e-4 than the distance, inside a cell than a way by one of its corners, with more places. An
-/// empty path where none leads.
+/// (search_cells), pulled taut, and searched again over places around the vertices and edges that
+/// hold it, until nothing is gained. Where that is longer by more than 3e-4 than the distance,
+/// inside a cell than a way by one of its corners, or shorter by more than 1e-2, so that the
+/// distance is off, with more places. An empty path where none leads.
 Path trace_cells(const CellField& field, const PointSource& point);
 
 /// The distance of a point: the length of its path, but inside of a cell none longer than by a

@@ -49,11 +49,10 @@ PathField<PointCloud<Real>>::PathField(const PointCloud<Real>& cloud,
 }
 
 template <class Real>
-void PathField<PointCloud<Real>>::took(std::span<const PointSource> sources, Visibility visibility,
-                                       bool labels) {
+void PathField<PointCloud<Real>>::took(std::span<const PointSource> sources,
+                                       Visibility visibility) {
   sources_ = first_at_place(*cloud_, sources);
   visibility_ = visibility;
-  labels_ = labels;
   solved_ = true;
   // Tracing asks all vertices of the sheet. What joins two points is where both ends are.
   if (cloud_->surface().vertex_count() != field_.distance.size())
@@ -75,8 +74,7 @@ Path PathField<PointCloud<Real>>::trace(const PointSource& point,
                                places_,
                                outer_,
                                {},
-                               visibility_,
-                               labels_};
+                               visibility_};
   return or_no_way_at_all(SurfaceTrace<Real>(cloud_->surface(), solved).trace(at, options), solved,
                           at);
 }

@@ -5,9 +5,31 @@
 #include <numeric>
 
 #include "paths/infinity.hpp"
-#include "paths/media_walk.hpp"
+#include "paths/straight_walk.hpp"
 
 namespace plexway {
+namespace {
+
+struct Medium {
+  const strings::MediaSpace& space;
+  Index medium;
+
+  [[nodiscard]] const std::array<Index, 4>& corners(Index s) const {
+    return space.simplices()[s].corner;
+  }
+  [[nodiscard]] const strings::Point& point(Index p) const { return space.point(p); }
+  // Triangles may belong to a solid medium, if that is as fast.
+  [[nodiscard]] bool may_cross(Index s) const {
+    return space.simplices()[s].medium == medium &&
+           (corners(s)[3] != none || !space.media()[medium].is_solid);
+  }
+  [[nodiscard]] std::vector<Index> around(Index s, const std::array<double, 4>& weight) const {
+    return space.simplices_around(s, weight);
+  }
+};
+using MediaWalk = StraightWalk<Medium>;
+
+}  // namespace
 
 template <class Real>
 MediaPaths::MediaPaths(const MixedStrings& strings, std::span<const Real> distance,
@@ -43,7 +65,7 @@ std::vector<Index> MediaPaths::simplices_at(const PointSource& point) const {
 
 void MediaPaths::add(Path& path, Index simplex, const strings::Point& at) const {
   constexpr double rounding = 1e-14;
-  MediaWalk::Weights w = MediaWalk(*space_->media).weights(simplex, at);
+  MediaWalk::Weights w = MediaWalk({*space_->media, none}).weights(simplex, at);
   double sum = 0;
   for (double& x : w) sum += x = x > rounding ? x : 0;
   for (double& x : w) x /= sum;
@@ -70,7 +92,6 @@ Path MediaPaths::trace(const PointSource& point) const {
   const MixedStrings::Found found = strings_->at(point);
   if (found.points.empty()) return path;
   const strings::MediaSpace& media = *space_->media;
-  const MediaWalk walk(media);
   path.source = found.source;
   path.length = 0;
   Index last = none;
@@ -79,7 +100,8 @@ Path MediaPaths::trace(const PointSource& point) const {
     const strings::Point &p = found.points[k + 1], &q = found.points[k], leg = q - p;
     path.length += media.unit() * media.media()[found.media[k]].slowness * norm(leg);
     if (!(norm(leg) > 1e-12)) continue;
-    const bool arrived = walk.walk(found.media[k], from, p, q, steps);
+    const MediaWalk walk({media, found.media[k]});
+    const bool arrived = walk.walk(from, p, q, steps);
     for (const auto& step : steps) add(path, last = step.simplex, p + step.begin * leg);
     if (arrived) {
       from = walk.around(last, q);

@@ -17,7 +17,6 @@
 #include "paths/solved.hpp"
 #include "paths/string_paths.hpp"
 #include "paths/surface_trace.hpp"
-#include "paths/wire_trace.hpp"
 
 namespace plexway {
 namespace {
@@ -35,23 +34,6 @@ SourceDomain described(const Wireframe<Real>& wireframe) {
   return {wireframe.vertex_count(), wireframe.edge_count(), "edge", 2};
 }
 
-template <class Real>
-Path trace_in(const TetMesh<Real>& mesh, const Solved<Real>& solved, const PointSource& point) {
-  return StringPaths<Real>(mesh, solved).trace(point);
-}
-template <class Real>
-Path trace_in(const Wireframe<Real>& wireframe, const Solved<Real>& solved,
-              const PointSource& point) {
-  return trace_wire(wireframe, solved, point);
-}
-
-// Along an edge of a wireframe paths come by its ends, or from a source on it.
-template <class Real>
-struct WireReadOut {
-  WireReadOut(const Wireframe<Real>&, const Solved<Real>& what) : solved(what) {}
-  const Solved<Real>& solved;
-};
-
 template <class Domain>
 struct ReadOutFor;
 template <class Real>
@@ -61,10 +43,6 @@ struct ReadOutFor<TriangleMesh<Real>> {
 template <class Real>
 struct ReadOutFor<TetMesh<Real>> {
   using Type = StringPaths<Real>;
-};
-template <class Real>
-struct ReadOutFor<Wireframe<Real>> {
-  using Type = WireReadOut<Real>;
 };
 template <class Domain>
 using ReadOutOf = typename ReadOutFor<Domain>::Type;
@@ -83,23 +61,6 @@ double distance_in(const TetMesh<Real>& mesh, const StringPaths<Real>& paths, co
   if (turned) std::swap(weight[2], weight[3]);
   return paths.at(t, weight, level);
 }
-template <class Real>
-double distance_in(const Wireframe<Real>& wireframe, const WireReadOut<Real>& read_out,
-                   const PointSource& at, ReadOut level) {
-  const Solved<Real>& solved = read_out.solved;
-  const auto [from, to, inside] = wireframe.inside_edge(at.simplex);
-  const double length = static_cast<double>(inside) * wireframe.unit();
-  const double a = static_cast<double>(solved.field.distance[solved.outer[from]]);
-  const double b = static_cast<double>(solved.field.distance[solved.outer[to]]);
-  const double s = at.barycentric[1], rest = at.barycentric[0];
-  if (level == ReadOut::linear) return (rest > 0 ? rest * a : 0) + (s > 0 ? s * b : 0);
-  double best = std::min(a + s * length, b + rest * length);
-  for (const PointSource& source : solved.sources)
-    if (source.vertex == none && source.simplex == at.simplex)
-      best = std::min(best, source.offset + std::abs(source.barycentric[1] - s) * length);
-  return best;
-}
-
 template <class Real>
 double linear_in(const TriangleMesh<Real>& mesh, std::span<const Index> outer,
                  std::span<const Real> distance, const PointSource& at) {
@@ -160,10 +121,10 @@ PathField<Domain<Real>>::PathField(const Domain<Real>& domain, const IntrinsicDe
                                    std::span<const std::array<double, 3>> positions)
     : domain_(&domain), given_(&given), delaunay_(delaunay), positions_(positions) {
   // Without one space around that lines are straight in.
-  if constexpr (!std::is_same_v<Domain<Real>, Wireframe<Real>>)
-    if (given.metric() ==
-        (Domain<Real>::kind == DomainKind::solid ? MetricKind::intrinsic : MetricKind::refracting))
-      cells_ = std::make_shared<const ComplexCells<Real>>(given);
+  if (Domain<Real>::kind == DomainKind::wireframe ||
+      given.metric() == (Domain<Real>::kind == DomainKind::solid ? MetricKind::intrinsic
+                                                                 : MetricKind::refracting))
+    cells_ = std::make_shared<const ComplexCells<Real>>(given);
   if (!positions.empty() && positions.size() != given.vertex_count())
     throw UsageError(std::to_string(positions.size()) + " positions for " +
                      std::to_string(given.vertex_count()) +
@@ -173,16 +134,6 @@ PathField<Domain<Real>>::PathField(const Domain<Real>& domain, const IntrinsicDe
   if constexpr (std::is_same_v<Domain<Real>, TetMesh<Real>>) {
     outer_simplices_.resize(domain.tet_count());
     for (Index t = 0; t < domain.tet_count(); ++t) outer_simplices_[domain.inside_tet(t).first] = t;
-  }
-  if constexpr (std::is_same_v<Domain<Real>, Wireframe<Real>>) {
-    // Rows hold their arcs in the order of the edges.
-    outer_simplices_.resize(domain.arcs().size());
-    std::vector<Index> end(domain.begin().begin(), domain.begin().end() - 1);
-    for (Index e = 0; e < domain.edge_count(); ++e) {
-      const auto edge = domain.inside_edge(e);
-      outer_simplices_[end[edge.from]++] = e;
-      if (edge.from != edge.to) outer_simplices_[end[edge.to]++] = e;
-    }
   }
 }
 
@@ -231,7 +182,6 @@ Solved<Real> PathField<Domain<Real>>::solved() const {
           outer_,
           outer_simplices_,
           visibility_,
-          kept_ == Kept::labels,
           windows};
 }
 
@@ -240,7 +190,7 @@ Path PathField<Domain<Real>>::trace(const PointSource& point, const TraceOptions
   if (!solved_) throw UsageError("there is nothing to trace before a solve");
   const PointSource at = checked(point);
   check(options, *domain_);
-  if (cells_) return trace_cells({*cells_, cell_distance_, given_sources(), positions_}, at);
+  if (cells_) return trace_cells(cell_field(), at);
   const Solved<Real> solved = this->solved();
   const auto found = [&]() -> Path {
     if constexpr (Domain<Real>::kind == DomainKind::surface) {
@@ -258,9 +208,10 @@ Path PathField<Domain<Real>>::trace(const PointSource& point, const TraceOptions
       path.windows = way.windows;
       path.capped = way.capped;
       return path;
-    } else {
-      return trace_in(*domain_, solved, at);
+    } else if constexpr (Domain<Real>::kind == DomainKind::solid) {
+      return StringPaths<Real>(*domain_, solved).trace(at);
     }
+    return {};  // wireframes are cells
   };
   return or_no_way_at_all(found(), solved, at);
 }
@@ -272,6 +223,12 @@ Support PathField<Domain<Real>>::support_of(Purpose purpose) const {
   return support(purpose, *domain_, visibility_,
                  kept_ == Kept::nothing ? ExecutorKind::gl : ExecutorKind::serial,
                  Domain<Real>::kind == DomainKind::solid || !positions_.empty());
+}
+
+template <template <class> class Domain, class Real>
+CellField PathField<Domain<Real>>::cell_field() const {
+  return {*cells_, cell_distance_, given_sources(), positions_,
+          Domain<Real>::kind == DomainKind::wireframe};
 }
 
 template <template <class> class Domain, class Real>
@@ -292,30 +249,32 @@ std::vector<double> PathField<Domain<Real>>::at(std::span<const PointSource> poi
                                                 ReadOut level) const {
   const Support supported = support_of(Purpose::read_out);
   if (level != ReadOut::linear) supported.require();
-  const Solved<Real> solved = this->solved();
-  const ReadOutOf<Domain<Real>> read_out(*domain_, solved);
   std::vector<double> distance;
   distance.reserve(points.size());
-  for (const PointSource& point : points) {
-    PointSource at = checked(point);
-    if (at.vertex != none) {
-      distance.push_back(static_cast<double>(field_.distance[at.vertex]));
-      continue;
-    }
-    if (cells_) {
-      distance.push_back(
-          read_cells({*cells_, cell_distance_, given_sources(), positions_}, at, level));
-      continue;
-    }
-    if constexpr (Domain<Real>::kind == DomainKind::surface) {
-      if (level == ReadOut::linear) {
-        distance.push_back(
-            linear_in(*given_, given_outer(), std::span<const Real>(field_.distance), at));
+  if (cells_) {
+    for (const PointSource& point : points)
+      distance.push_back(read_cells(cell_field(), checked(point), level));
+    return distance;
+  }
+  if constexpr (Domain<Real>::kind != DomainKind::wireframe) {
+    const Solved<Real> solved = this->solved();
+    const ReadOutOf<Domain<Real>> read_out(*domain_, solved);
+    for (const PointSource& point : points) {
+      PointSource at = checked(point);
+      if (at.vertex != none) {
+        distance.push_back(static_cast<double>(field_.distance[at.vertex]));
         continue;
       }
-      if (delaunay_ != nullptr) at = delaunay_->to_intrinsic(at);
+      if constexpr (Domain<Real>::kind == DomainKind::surface) {
+        if (level == ReadOut::linear) {
+          distance.push_back(
+              linear_in(*given_, given_outer(), std::span<const Real>(field_.distance), at));
+          continue;
+        }
+        if (delaunay_ != nullptr) at = delaunay_->to_intrinsic(at);
+      }
+      distance.push_back(distance_in(*domain_, read_out, at, level));
     }
-    distance.push_back(distance_in(*domain_, read_out, at, level));
   }
   return distance;
 }

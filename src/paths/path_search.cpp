@@ -257,8 +257,8 @@ SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources
                                                         mesh.unit(), propagate);
   const SaddleRule<Real, decltype(front)> rule(mesh.triangles(), front, true);
   // SurfaceTrace reads the labels' sources if there are several; one is the first of several.
-  const Solved<Real> solved = {workspace, s.no_field,          sources, s.positions, {}, s.outer,
-                               {},        Visibility::saddles, true};
+  const Solved<Real> solved = {workspace, s.no_field, sources, s.positions,
+                               {},        s.outer,    {},      Visibility::saddles};
   const SurfaceLabels<Real> known(mesh, solved);
   s.labels = &known;
   TrianglePropagation<Real, std::decay_t<decltype(rule)>, decltype(front), true> propagation(
@@ -273,38 +273,35 @@ SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources
 
   SearchResult result;
   const SurfaceTrace<Real> trace(mesh, solved);
-  std::vector<std::size_t> lost;
   for (std::size_t n = 0; n < targets.size(); ++n) {
     result.distance.push_back(s.best_of(s.targets[n]) * mesh.unit());
     result.paths.push_back(
         or_no_way_at_all(trace.trace(targets[n], options.trace), solved, targets[n]));
-    const Path& path = result.paths[n];
-    if (path.capped || (path.source == none && result.distance[n] < infinity)) lost.push_back(n);
   }
   s.labels = nullptr;
   s.heuristic = nullptr;
   result.complete = !front.out_of_budget();
   result.statistics = {front.expansions(), front.updates(), front.reached_count()};
-  if (lost.empty() || !result.complete) return result;
-  // Labels overtaken meanwhile lead back in circles, once in a thousand on needles, or say too
-  // little of what is left to go for the shortest path to be found near it. Distances at all
-  // vertices lead out of that.
+  const auto is_capped = [](const Path& path) { return path.capped; };
+  if (!result.complete || std::none_of(result.paths.begin(), result.paths.end(), is_capped))
+    return result;
+  // Windows ran out, as labels say too little of what is left to go: distances at all vertices say
+  // more.
   PathField field(mesh, s.positions);
-  field.solve(Serial{}, sources);
-  for (const std::size_t n : lost) {
+  const PropagateStatistics more = field.solve(Serial{}, sources).statistics;
+  for (std::size_t n = 0; n < targets.size(); ++n) {
+    if (!result.paths[n].capped) continue;
     PointSource target = targets[n];
     target.offset = 0;
     Path path = field.trace(target, options.trace);
-    const auto length = [&](const Path& p) {
+    const auto whole = [&](const Path& p) {
       return p.source == none ? infinity : p.length + sources[p.source].offset;
     };
-    if (!(length(result.paths[n]) <= length(path))) result.paths[n] = std::move(path);
-    // What the whole field has looked through is looked through.
-    else
-      result.paths[n].capped = path.capped;
+    result.paths[n].capped = path.capped;
+    if (whole(path) < whole(result.paths[n])) result.paths[n] = std::move(path);
   }
-  result.statistics.expansions += field.distances().statistics.expansions;
-  result.statistics.updates += field.distances().statistics.updates;
+  result.statistics.expansions += more.expansions;
+  result.statistics.updates += more.updates;
   return result;
 }
 

@@ -25,16 +25,10 @@ struct Solved {
   /// Where paths are drawn, if not there: lengths are then the domain's own. Surfaces only.
   std::span<const std::array<double, 3>> drawn;
   std::span<const Index> outer;  ///< from vertices inside to the caller's
-  /// The caller's numbers of tetrahedra; the edges that the arcs of wireframes are.
+  /// The caller's numbers of tetrahedra.
   std::span<const Index> outer_simplices;
   Visibility visibility;
-  bool labels;  ///< are labels and marks in the workspace those of the field?
-  const windows::KeptWindows<Real>* windows = nullptr;  ///< or these? Surfaces only.
-
-  /// The source that the label of a simplex leads to.
-  [[nodiscard]] Index source_of(Index simplex) const {
-    return sources.size() > 1 ? workspace.source[simplex] : 0;
-  }
+  const windows::KeptWindows<Real>* windows = nullptr;  ///< of the field, or none. Surfaces only.
 };
 
 /// The way from a vertex that is a source itself, though no simplex has it; else `found`.

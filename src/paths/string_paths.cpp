@@ -14,6 +14,30 @@ constexpr std::array<double, 4> centre = {.25, .25, .25, .25};
 }  // namespace
 
 template <class Real>
+std::vector<Index> TetSpace<Real>::around(Index t, const std::array<double, 4>& weight) const {
+  const auto& record = mesh.tets()[t];
+  std::vector<Index> own;  // corners that it lies between
+  std::size_t across = 4;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (weight[i] > 0)
+      own.push_back(record.corner[i]);
+    else
+      across = i;
+  std::vector<Index> found = {t};
+  if (own.size() == 3) {
+    const Index next = record.across[across] >> TetAcross::tet_shift;
+    if (next != static_cast<Index>(mesh.tet_count())) found.push_back(next);
+  }
+  if (own.empty() || own.size() > 2) return found;
+  for (const Index c : mesh.corners_at(own.front())) {
+    const Index* const corner = mesh.tets()[c / 4].corner;
+    if (c / 4 != t && std::find(corner, corner + 4, own.back()) != corner + 4)
+      found.push_back(c / 4);
+  }
+  return found;
+}
+
+template <class Real>
 Path StringPaths<Real>::trace(const PointSource& point) const {
   const auto reached = [&](Index v) {
     return static_cast<double>(solved_.field.distance[solved_.outer[v]]) < infinity;
@@ -49,7 +73,7 @@ Path StringPaths<Real>::cut(const SolidStrings::Found& found, std::vector<Index>
   Point before = {0, 0, 0};
   // A point of t, which the path comes to from another tetrahedron: rounding aside it is in both.
   const auto add = [&](Index t, Index from, const Point& at) {
-    std::array<double, 4> b = walk_.barycentric(t, at);
+    std::array<double, 4> b = walk_.weights(t, at);
     const auto& corner = mesh_.tets()[t].corner;
     const auto& before_it = mesh_.tets()[from].corner;
     double sum = 0;
@@ -64,7 +88,7 @@ Path StringPaths<Real>::cut(const SolidStrings::Found& found, std::vector<Index>
     Point placed = {0, 0, 0};
     for (std::size_t i = 0; i < 4; ++i) {
       if (positions.empty()) {
-        placed = placed + b[i] * mesh_.unit() * walk_.vertex(corner[i]);
+        placed = placed + b[i] * mesh_.unit() * TetSpace<Real>{mesh_}.point(corner[i]);
       } else {
         const auto& p = positions[solved_.outer[corner[i]]];
         placed = placed + b[i] * Point{p[0], p[1], p[2]};
@@ -78,17 +102,17 @@ Path StringPaths<Real>::cut(const SolidStrings::Found& found, std::vector<Index>
     if (!positions.empty()) path.positions.push_back({placed.x, placed.y, placed.z});
   };
   Index last = none;
-  std::vector<typename SolidWalk<Real>::Step> steps;
+  std::vector<typename StraightWalk<TetSpace<Real>>::Step> steps;
   for (std::size_t k = found.points.size(); k-- > 1;) {
     const Point &p = found.points[k], &q = found.points[k - 1];
-    walk_.walk(tets, p, q, &steps);
+    walk_.walk(tets, p, q, steps);
     for (const auto& step : steps) {
       if (!(step.end > step.begin)) continue;
-      add(step.tet, last == none ? step.tet : last, p + step.begin * (q - p));
-      last = step.tet;
+      add(step.simplex, last == none ? step.simplex : last, p + step.begin * (q - p));
+      last = step.simplex;
     }
     if (last == none) return {};
-    walk_.all_at(last, q, tets);
+    tets = walk_.around(last, q);
   }
   add(last, last, found.points.front());
   return path;

@@ -7,11 +7,27 @@
 #include <plexway/solid/tet_mesh.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "paths/solid_walk.hpp"
 #include "paths/solved.hpp"
+#include "paths/straight_walk.hpp"
 #include "strings/solid_strings.hpp"
 
 namespace plexway {
+
+/// The tetrahedra of a solid in space, as lines cross them. Numbers and frame inside.
+template <class Real>
+struct TetSpace {
+  const TetMesh<Real>& mesh;
+
+  [[nodiscard]] std::array<Index, 4> corners(Index t) const {
+    return std::to_array(mesh.tets()[t].corner);
+  }
+  [[nodiscard]] strings::Point point(Index v) const {
+    const Vector3<Real>& p = mesh.points()[v];
+    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+  }
+  [[nodiscard]] bool may_cross(Index) const { return true; }
+  [[nodiscard]] std::vector<Index> around(Index t, const std::array<double, 4>& weight) const;
+};
 
 /// Paths, and distances of points, in a solid in space: the strings that a solve left in the
 /// workspace, to vertices and to points of tetrahedra. Tetrahedra have the numbers inside.
@@ -19,7 +35,7 @@ template <class Real>
 class StringPaths {
  public:
   StringPaths(const TetMesh<Real>& mesh, const Solved<Real>& solved)
-      : mesh_(mesh), solved_(solved), strings_(solved.workspace.strings.get()), walk_(mesh) {}
+      : mesh_(mesh), solved_(solved), strings_(solved.workspace.strings.get()), walk_({mesh}) {}
 
   /// The way from a point back to its source, cut where it goes from tetrahedron to tetrahedron.
   /// Empty where none leads.
@@ -40,7 +56,7 @@ class StringPaths {
   const TetMesh<Real>& mesh_;
   const Solved<Real>& solved_;
   const SolidStrings* strings_;  // none where a field is only read between vertices
-  SolidWalk<Real> walk_;
+  StraightWalk<TetSpace<Real>> walk_;
 };
 
 extern template class StringPaths<float>;

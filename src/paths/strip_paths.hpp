@@ -18,7 +18,6 @@ namespace plexway {
 struct StripWay {
   std::vector<Strip> legs;
   Index source = none;
-  std::vector<Index> bends = {};  ///< vertices, as far as they are known before it is pulled
 };
 
 /// The same, pulled.

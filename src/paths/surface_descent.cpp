@@ -1,4 +1,4 @@
-// The way of last resort: along edges.
+// Along edges.
 
 #include <unordered_map>
 #include <utility>
@@ -8,8 +8,6 @@
 #include "paths/surface_trace.hpp"
 
 namespace plexway {
-namespace {}  // namespace
-
 /// A triangle with the edge (v, w), and the direction of w at v.
 template <class Real>
 std::optional<Heading> SurfaceTrace<Real>::side(Index v, Index w) const {
@@ -58,9 +56,7 @@ bool SurfaceTrace<Real>::descend(Index f, const std::array<double, 3>& b, bool b
       offer(triangles[face].corner[i], {s.offset + shape_.distance(face, at_corner(i), at),
                                         static_cast<Index>(n), 3 * face + static_cast<Index>(i)});
   }
-  const auto distance = [&](Index v) {
-    return static_cast<double>(solved_.field.distance[solved_.outer[v]]);
-  };
+  const auto falling = [&](Index v) { return distance(v); };
   const auto end = [&](Index v) {
     const auto found = ends.find(v);
     return found == ends.end() ? infinity : found->second.left;
@@ -85,7 +81,7 @@ bool SurfaceTrace<Real>::descend(Index f, const std::array<double, 3>& b, bool b
   const std::vector<Index> vertices =
       blindly ? descend_edges(
                     triangles[f].corner[first], [](Index) { return infinity; }, end, edges)
-              : descend_edges(triangles[f].corner[first], distance, end, edges);
+              : descend_edges(triangles[f].corner[first], falling, end, edges);
   if (vertices.empty()) return false;
 
   Strip leg;

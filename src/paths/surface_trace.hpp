@@ -26,21 +26,16 @@ inline std::array<double, 3> inside(const std::array<double, 4>& b, bool turned)
 /// Paths on a solved surface.
 ///
 /// A way back is a strip of triangles, or several where it passes a vertex that fans only touch in.
-/// After windows it is found by them, from triangle to triangle. Else in three ways, each where the
-/// one before leads nowhere:
-///  * by sight: straight towards the last bend that the label knows, whatever labels the triangles
-///    between have by now (large ones mostly have better ones for their own centre), and on from
-///    that vertex. Distances of the vertices fall, so it ends.
-///  * over the edges that labels came in by. No triangle is entered twice, so it ends.
-///  * down over the vertices' distances, along edges; and where all that is 1 % longer than the
-///  field
-///    promises, the shortest way along edges, which the path is then no longer than.
+/// After windows it is found by them, from triangle to triangle. Else down over the vertices'
+/// distances, along edges; and where that, pulled straight, is 1 % longer than the field promises,
+/// the shortest way along edges, which the path is then no longer than. From there windows look for
+/// the shortest of all.
 template <class Real>
 class SurfaceTrace {
  public:
   SurfaceTrace(const TriangleMesh<Real>& mesh, const Solved<Real>& solved);
 
-  /// The shortest of the ways that the labels around the point lead. No source where none does.
+  /// The shortest way from a point. No source where none leads.
   [[nodiscard]] PulledWay find(const PointSource& point, const TraceOptions& options) const;
   /// The same as a path.
   [[nodiscard]] Path trace(const PointSource& point, const TraceOptions& options) const {
@@ -49,15 +44,8 @@ class SurfaceTrace {
   }
 
  private:
-  [[nodiscard]] std::optional<std::array<double, 3>> source_in(Index f, Index number) const;
-  bool see(const Strip& begin, StripWay& way) const;
-  enum class Seen { vertex, source, nothing };
-  Seen look(Strip& leg, Heading& at, Index number) const;
-  bool follow(Strip leg, StripWay& way) const;
-  [[nodiscard]] std::optional<Crossing> back_from(Index f) const;
-  /// At a vertex where fans meet, a corner from where a path leads on.
-  [[nodiscard]] Index beyond_pinch(Index vertex) const;
-
+  /// Of a vertex (inside). A search leaves labels only.
+  [[nodiscard]] double distance(Index v) const;
   bool follow_windows(Index f, std::array<double, 3> at, StripWay& way) const;
   bool descend(Index f, const std::array<double, 3>& b, bool blindly, StripWay& way) const;
   [[nodiscard]] std::optional<Heading> side(Index v, Index w) const;

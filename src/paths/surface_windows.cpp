@@ -10,22 +10,10 @@
 #include "paths/window_search.hpp"
 
 namespace plexway {
-namespace {}  // namespace
-
 template <class Real>
 void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
                                         const TraceOptions& options, PulledWay& best) const {
-  const double unit = mesh_.unit();
-  std::vector<Index> corners;
-  const auto left = [&](Index v) {
-    if (!solved_.field.distance.empty())
-      return static_cast<double>(solved_.field.distance[solved_.outer[v]]);
-    double least = infinity;  // a search leaves labels only
-    mesh_.corners_at(v, corners);
-    for (const Index c : corners)
-      if (labels_.reached(c / 3)) least = std::min(least, labels_.corner_distance(c / 3, c % 3));
-    return least * unit;
-  };
+  const auto left = [&](Index v) { return distance(v); };
   std::vector<WindowGoal> goals;
   for (const PointSource& s : solved_.sources) {
     WindowGoal goal;
@@ -52,9 +40,9 @@ void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
     promise = std::min(promise,
                        left(mesh_.triangles()[f].corner[i]) + shape_.distance(f, at_corner(i), b));
   // Looks for something shorter within a margin. False if windows ran out before all was seen.
-  const auto look = [&](double margin, std::size_t most) {
+  const auto look = [&](double margin, std::size_t most, double bound = infinity) {
     const double known = length();
-    auto found = search.find(f, b, known * shorter, margin, most);
+    auto found = search.find(f, b, std::min(known * shorter, bound), margin, most);
     std::size_t windows = best.windows + found.windows;
     if (found.goal != none) {
       if (found.strips.empty()) {  // the point is that source
@@ -83,6 +71,9 @@ void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
   };
   const double asked = options.margin.value_or(TraceOptions::usual_margin);
   double margin = std::min(asked, TraceOptions::usual_margin);
+  // What is longer than promised would be far from the shortest: first near that.
+  if (const double near = promise * (1 + margin); margin > 0 && near < length())
+    look(margin, options.max_windows, near);
   while (margin > 0 && seen && used < options.max_windows) {
     const double known = length();
     widen(margin);
@@ -108,9 +99,6 @@ bool SurfaceTrace<Real>::follow_windows(Index f, std::array<double, 3> at, Strip
   using Sight = typename WindowReadOut<Real>::Sight;
   const WindowReadOut<Real> windows(mesh_, solved_);
   const auto triangles = mesh_.triangles();
-  const auto distance = [&](Index v) {
-    return static_cast<double>(solved_.field.distance[solved_.outer[v]]);
-  };
   // The source that a vertex is, or none.
   const auto source_at = [&](Index v) {
     const Index outer = solved_.outer[v];

@@ -98,7 +98,7 @@ class DartSample {
         has_places(domain) ? std::min(parts, std::max(options.at_once, 4 * simplices)) : parts;
     if (least <= static_cast<double>(at_once)) {
       try {
-        throw_at(cut(domain, limits_, at_once));
+        throw_at(cut(domain, std::span<const double>(limits_), at_once));
         return;
       } catch (const TooManyParts&) {
         if (at_once == parts) throw;

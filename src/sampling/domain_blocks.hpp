@@ -54,7 +54,8 @@ class DomainBlocks {
       CutDomain<Complex> fine;
       try {
         if (!small && expected_parts(box) > static_cast<double>(most_)) throw TooManyParts("");
-        fine = cut_near(domain_, limits_, box, width, small ? most_parts : most_);
+        const Near near = {box, width};
+        fine = cut(domain_, limits_, small ? most_parts : most_, &near);
       } catch (const TooManyParts&) {
         if (small) throw;
         Block low = {box, share / 2}, high = low;

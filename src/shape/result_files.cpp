@@ -31,13 +31,6 @@ using io::OutputFile;
   throw UsageError("--out " + out.string() + ": unknown extension; those written are" + names);
 }
 
-void write_row(OutputFile& out, std::span<const double> numbers, char between) {
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (i > 0) out.write(std::string_view(&between, 1));
-    out.write_text(numbers[i]);
-  }
-}
-
 }  // namespace
 
 std::span<const std::string_view> point_file_extensions() {
@@ -61,7 +54,7 @@ void write_points(const std::filesystem::path& out, const AnyShape& domain,
   OutputFile file(out);
   if (extension == ".csv") {
     file.write("x,y,z,vertex,simplex,b0,b1,b2,b3");
-    if (!value.empty()) file.write(","), file.write(value_name);
+    if (!value.empty()) file.write(",", value_name);
     if (!original.empty()) file.write(",original");
     file.write("\n");
   } else if (extension == ".npy") {
@@ -69,11 +62,7 @@ void write_points(const std::filesystem::path& out, const AnyShape& domain,
   } else if (extension == ".ply") {
     file.write("ply\nformat ascii 1.0\nelement vertex " + std::to_string(points.size()) +
                "\nproperty double x\nproperty double y\nproperty double z\n");
-    if (!value.empty()) {
-      file.write("property double ");
-      file.write(value_name);
-      file.write("\n");
-    }
+    if (!value.empty()) file.write("property double ", value_name, "\n");
     if (!original.empty()) file.write("property uint original\n");
     file.write("end_header\n");
   } else if (extension != ".obj") {
@@ -86,25 +75,18 @@ void write_points(const std::filesystem::path& out, const AnyShape& domain,
       for (const double x : at) file.write_binary(x);
       continue;
     }
+    const char* const between = extension == ".csv" ? "," : " ";
     if (extension == ".obj") file.write("v ");
-    write_row(file, at, extension == ".csv" ? ',' : ' ');
+    file.write_row(at, between);
     if (extension == ".csv") {
       const bool at_vertex = point.vertex != none;
-      for (const Index number : {point.vertex, at_vertex ? none : point.simplex}) {
-        file.write(",");
-        file.write_text(number == none ? std::int64_t{-1} : std::int64_t{number});
-      }
+      for (const Index number : {point.vertex, at_vertex ? none : point.simplex})
+        file.write(",", number == none ? std::int64_t{-1} : std::int64_t{number});
       file.write(",");
-      write_row(file, point.barycentric, ',');
+      file.write_row(point.barycentric, ",");
     }
-    if (!value.empty() && extension != ".obj") {
-      file.write(extension == ".csv" ? "," : " ");
-      file.write_text(value[n]);
-    }
-    if (!original.empty() && extension != ".obj") {
-      file.write(extension == ".csv" ? "," : " ");
-      file.write_text(original[point.vertex]);
-    }
+    if (!value.empty() && extension != ".obj") file.write(between, value[n]);
+    if (!original.empty() && extension != ".obj") file.write(between, original[point.vertex]);
     file.write("\n");
   }
   file.commit();
@@ -118,7 +100,7 @@ void write_matrix(const std::filesystem::path& out, std::size_t n, std::span<con
     for (const double x : values) file.write_binary(x);
   } else if (extension == ".csv") {
     for (std::size_t i = 0; i < n; ++i) {
-      write_row(file, values.subspan(i * n, n), ',');
+      file.write_row(values.subspan(i * n, n), ",");
       file.write("\n");
     }
   } else {

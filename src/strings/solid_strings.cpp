@@ -31,8 +31,6 @@ strings::Inside inside_of(const TetMesh<Real>& mesh, const strings::MediaSpace& 
   return inside;
 }
 
-namespace {
-
 template <class Real>
 strings::Source source_of(const TetMesh<Real>& mesh, const strings::MediaSpace& space,
                           const PointSource& given, strings::Inside& inside) {
@@ -43,8 +41,6 @@ strings::Source source_of(const TetMesh<Real>& mesh, const strings::MediaSpace& 
   if (turned) std::swap(b[2], b[3]);
   return source_in(mesh, space, tet, b, offset, inside);
 }
-
-}  // namespace
 
 template <class Real>
 strings::Source source_in(const TetMesh<Real>& mesh, const strings::MediaSpace& space, Index tet,
@@ -135,6 +131,10 @@ template strings::Inside inside_of(const TetMesh<float>&, const strings::MediaSp
                                    const Point&);
 template strings::Inside inside_of(const TetMesh<double>&, const strings::MediaSpace&, Index,
                                    const Point&);
+template strings::Source source_of(const TetMesh<float>&, const strings::MediaSpace&,
+                                   const PointSource&, strings::Inside&);
+template strings::Source source_of(const TetMesh<double>&, const strings::MediaSpace&,
+                                   const PointSource&, strings::Inside&);
 template strings::Source source_in(const TetMesh<float>&, const strings::MediaSpace&, Index,
                                    const std::array<double, 4>&, double, strings::Inside&);
 template strings::Source source_in(const TetMesh<double>&, const strings::MediaSpace&, Index,

@@ -30,6 +30,10 @@ template <class Real>
 strings::Source source_in(const TetMesh<Real>& mesh, const strings::MediaSpace& space, Index tet,
                           const std::array<double, 4>& weight, double offset,
                           strings::Inside& inside);
+/// One in the caller's numbers.
+template <class Real>
+strings::Source source_of(const TetMesh<Real>& mesh, const strings::MediaSpace& space,
+                          const PointSource& given, strings::Inside& inside);
 /// A solid as one medium, which it keeps.
 template <class Real>
 std::shared_ptr<const strings::MediaSpace> space_of(const TetMesh<Real>& mesh);

@@ -7,6 +7,7 @@
 
 #include "fuzz_reader.hpp"
 #include "io/readers.hpp"
+#include "io/solid/cells.hpp"
 
 namespace fuzz {
 
@@ -72,11 +73,14 @@ PLEXWAY_FUZZER(gifti)(const std::uint8_t* data, std::size_t size) {
 }
 
 PLEXWAY_FUZZER(gltf)(const std::uint8_t* data, std::size_t size) {
-  return fuzz::check_reader(plexway::io::parse_gltf, data, size);
+  return fuzz::check_reader(
+      [](std::string_view bytes, std::string_view name) {
+        return plexway::io::parse_gltf(bytes, name);
+      },
+      data, size);
 }
 
 PLEXWAY_FUZZER(gmsh)(const std::uint8_t* data, std::size_t size) {
-  fuzz::check_reader(plexway::io::parse_gmsh_cells, data, size);
   return fuzz::check_reader(plexway::io::parse_gmsh, data, size);
 }
 
@@ -85,7 +89,6 @@ PLEXWAY_FUZZER(las)(const std::uint8_t* data, std::size_t size) {
 }
 
 PLEXWAY_FUZZER(medit)(const std::uint8_t* data, std::size_t size) {
-  fuzz::check_reader(plexway::io::parse_medit_cells, data, size);
   return fuzz::check_reader(plexway::io::parse_medit, data, size);
 }
 
@@ -100,12 +103,15 @@ PLEXWAY_FUZZER(node_ele)(const std::uint8_t* data, std::size_t size) {
 }
 
 PLEXWAY_FUZZER(obj)(const std::uint8_t* data, std::size_t size) {
-  fuzz::check_reader(plexway::io::parse_obj_cells, data, size);
   return fuzz::check_reader(plexway::io::parse_obj, data, size);
 }
 
 PLEXWAY_FUZZER(obj_lines)(const std::uint8_t* data, std::size_t size) {
-  return fuzz::check_edge_reader(plexway::io::parse_obj_lines, data, size);
+  return fuzz::check_edge_reader(
+      [](std::string_view text, std::string_view name) {
+        return edges_of(plexway::io::parse_obj(text, name), name);
+      },
+      data, size);
 }
 
 PLEXWAY_FUZZER(off)(const std::uint8_t* data, std::size_t size) {
@@ -113,7 +119,6 @@ PLEXWAY_FUZZER(off)(const std::uint8_t* data, std::size_t size) {
 }
 
 PLEXWAY_FUZZER(ply)(const std::uint8_t* data, std::size_t size) {
-  fuzz::check_reader(plexway::io::parse_ply_cells, data, size);
   return fuzz::check_reader(plexway::io::parse_ply, data, size);
 }
 
@@ -126,12 +131,10 @@ PLEXWAY_FUZZER(stl)(const std::uint8_t* data, std::size_t size) {
 }
 
 PLEXWAY_FUZZER(vtk)(const std::uint8_t* data, std::size_t size) {
-  fuzz::check_reader(plexway::io::parse_vtk_cells, data, size);
   return fuzz::check_reader(plexway::io::parse_vtk, data, size);
 }
 
 PLEXWAY_FUZZER(vtu)(const std::uint8_t* data, std::size_t size) {
-  fuzz::check_reader(plexway::io::parse_vtu_cells, data, size);
   return fuzz::check_reader(plexway::io::parse_vtu, data, size);
 }
 

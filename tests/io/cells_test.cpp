@@ -39,7 +39,10 @@ std::optional<io::Mixed> read(const std::filesystem::path& file) {
   }
 }
 
-io::Mixed gltf_of(const std::string& json) { return io::parse_gltf(json, "mesh"); }
+io::Mixed parse_gltf(std::string_view bytes, std::string_view name) {
+  return io::parse_gltf(bytes, name);
+}
+io::Mixed gltf_of(const std::string& json) { return parse_gltf(json, "mesh"); }
 
 // A .gltf of one triangle 0 0 0, 1 0 0, 0 1 0 as two primitives' worth of numbers.
 std::string gltf(const std::string& nodes, const std::string& primitive,
@@ -131,12 +134,12 @@ TEST_CASE("polygons of .vtp and legacy POLYDATA become triangles") {
           Faces{{0, 1, 2}, {0, 2, 3}, {0, 1, 4}, {1, 2, 4}, {2, 1, 4}, {1, 0, 4}});
     CHECK(cells.edges == std::vector<std::array<std::uint32_t, 2>>{{3, 4}, {4, 0}});
   };
-  check(io::parse_vtk_cells(
-      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 5 float\n" + five +
-          "\nLINES 1 4\n3 3 4 0\nPOLYGONS 3 13\n4 0 1 2 3\n3 0 1 4\n3 1 2 4\n"
-          "TRIANGLE_STRIPS 1 5\n4 2 1 4 0\nPOINT_DATA 5\nSCALARS a float\n",
-      "f"));
-  check(io::parse_vtk_cells(
+  check(io::parse_vtk("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 5 float\n" +
+                          five +
+                          "\nLINES 1 4\n3 3 4 0\nPOLYGONS 3 13\n4 0 1 2 3\n3 0 1 4\n3 1 2 4\n"
+                          "TRIANGLE_STRIPS 1 5\n4 2 1 4 0\nPOINT_DATA 5\nSCALARS a float\n",
+                      "f"));
+  check(io::parse_vtk(
       "# vtk DataFile Version 5.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 5 double\n" + five +
           "\nLINES 2 3\nOFFSETS vtktypeint64\n0 3\nCONNECTIVITY vtktypeint64\n3 4 0\n"
           "POLYGONS 4 10\nOFFSETS vtktypeint64\n0 4 7 10\nCONNECTIVITY vtktypeint64\n"
@@ -157,12 +160,13 @@ TEST_CASE("polygons of .vtp and legacy POLYDATA become triangles") {
       list("Strips", "2 1 4 0", "4") + list("Polys", "0 1 2 3 0 1 4 1 2 4", "4 7 10") +
       "</Piece></PolyData></VTKFile>";
   try {
-    check(io::parse_vtu_cells(vtp, "f"));
+    check(io::parse_vtu(vtp, "f"));
   } catch (const NotBuiltError&) {
   }
-  CHECK(complaint(io::parse_vtk, "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n") ==
+  CHECK(complaint(io_testing::tets<io::parse_vtk>,
+                  "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n") ==
         "mesh:5: the file has no POINTS");
-  CHECK(complaint(io::parse_vtk_cells,
+  CHECK(complaint(io::parse_vtk,
                   "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 1 float\n0 0 0\n"
                   "POLYGONS 1 4\n3 0 0 1\n") ==
         "mesh:8: a cell names point 1, but there are 1 points");
@@ -173,11 +177,11 @@ TEST_CASE("tetrahedra win over what is beside them, and what no domain is made o
       "# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"
       "POINTS 5 float\n0 0 0 1 0 0 0 1 0 0 0 1 1 1 1\n";
   const std::string both = points + "CELLS 3 12\n4 0 1 2 3\n3 0 1 2\n2 3 4\nCELL_TYPES 3\n10 5 3\n";
-  const io::Tets solid = io::parse_vtk(both, "f");
+  const io::Tets solid = io_testing::tets<io::parse_vtk>(both, "f");
   CHECK(solid.tets.size() == 1);
   CHECK(solid.report.passed_over_text() == "1 triangles, 1 lines");
-  CHECK(io::parse_vtk_cells(both, "f").triangles.size() == 1);
-  CHECK(complaint(io::parse_vtk_cells,
+  CHECK(io::parse_vtk(both, "f").triangles.size() == 1);
+  CHECK(complaint(io::parse_vtk,
                   points + "CELLS 2 11\n4 0 1 2 3\n5 0 1 2 3 4\nCELL_TYPES 2\n10 41\n") ==
         "mesh: has 1 sets of points, which are not read: a domain without them would have holes");
 }
@@ -223,7 +227,7 @@ TEST_CASE("glTF that is packed, elsewhere or broken is refused in one line") {
   const auto said = [&](const std::string& from, const std::string& to) {
     std::string broken = good;
     REQUIRE(broken.find(from) != broken.npos);
-    return complaint(io::parse_gltf, broken.replace(broken.find(from), from.size(), to));
+    return complaint(parse_gltf, broken.replace(broken.find(from), from.size(), to));
   };
   CHECK_THAT(said(R"("nodes")", R"("extensionsRequired":["KHR_draco_mesh_compression"],"nodes")"),
              Contains("is packed (KHR_draco_mesh_compression), which is not read; unpack it"));
@@ -234,9 +238,9 @@ TEST_CASE("glTF that is packed, elsewhere or broken is refused in one line") {
   CHECK_THAT(said(R"("mesh":0)", R"("mesh":4)"), Contains("names '4' of 1 meshes"));
   CHECK_THAT(said(R"("mesh":0)", R"("children":[0])"), Contains("circle"));
   CHECK_THAT(said(R"("nodes")", R"("nodes)"), Contains("JSON is broken"));
-  CHECK_THAT(complaint(io::parse_gltf, "glTF"), Contains("ends inside its header"));
-  CHECK_THAT(complaint(io::parse_gltf, "{}"), Contains("has no points"));
-  CHECK_THAT(complaint(io::parse_gltf, R"({"meshes":[[1]],"nodes":[{"mesh":0}]})"),
+  CHECK_THAT(complaint(parse_gltf, "glTF"), Contains("ends inside its header"));
+  CHECK_THAT(complaint(parse_gltf, "{}"), Contains("has no points"));
+  CHECK_THAT(complaint(parse_gltf, R"({"meshes":[[1]],"nodes":[{"mesh":0}]})"),
              Contains("has no points"));
 }
 
@@ -276,9 +280,9 @@ std::string gmsh(const std::string& elements) {
 TEST_CASE("lines, triangles and tetrahedra come from one .vtk") {
   const std::string file = vtk("CELLS 6 22\n3 1 4 2\n4 0 1 2 3\n2 4 5\n3 4 5 6\n3 0 1 3\n1 6\n",
                                "CELL_TYPES 6\n5 10 3 4 5 1\n");
-  check_cells(io::parse_vtk_cells(file, "f"));
+  check_cells(io::parse_vtk(file, "f"));
   // As a solid, as before.
-  CHECK(io::parse_vtk(file, "f").tets.size() == 1);
+  CHECK(io_testing::tets<io::parse_vtk>(file, "f").tets.size() == 1);
 }
 
 TEST_CASE("lines, triangles and tetrahedra come from one .vtu") {
@@ -291,8 +295,8 @@ TEST_CASE("lines, triangles and tetrahedra come from one .vtu") {
       "3 7 9 12 15 16</DataArray><DataArray type=\"UInt8\" Name=\"types\">5 10 3 4 5 1</DataArray>"
       "</Cells></Piece></UnstructuredGrid></VTKFile>";
   try {
-    check_cells(io::parse_vtu_cells(file, "f"));
-    CHECK(io::parse_vtu(file, "f").tets.size() == 1);
+    check_cells(io::parse_vtu(file, "f"));
+    CHECK(io_testing::tets<io::parse_vtu>(file, "f").tets.size() == 1);
   } catch (const NotBuiltError&) {
   }
 }
@@ -301,17 +305,17 @@ TEST_CASE("lines, triangles and tetrahedra come from one .msh") {
   const std::string file = gmsh(
       "7\n1 2 2 1 1 11 14 12\n2 4 2 1 1 10 11 12 13\n3 1 2 1 1 14 15\n4 1 0 14 15\n5 1 0 15 16\n"
       "6 2 0 10 11 13\n7 15 0 16\n");
-  check_cells(io::parse_gmsh_cells(file, "f"));
-  CHECK(io::parse_gmsh(file, "f").tets.size() == 1);
-  CHECK_THROWS_WITH(io::parse_gmsh_cells(gmsh("1\n7 2 0 10 11 99\n"), "f.msh"),
+  check_cells(io::parse_gmsh(file, "f"));
+  CHECK(io_testing::tets<io::parse_gmsh>(file, "f").tets.size() == 1);
+  CHECK_THROWS_WITH(io::parse_gmsh(gmsh("1\n7 2 0 10 11 99\n"), "f.msh"),
                     Contains("triangle 7 names node 99"));
 }
 
 TEST_CASE("cells of kinds that are not known are refused, as a domain would have holes") {
   CHECK_THROWS_WITH(
-      io::parse_vtk_cells(vtk("CELLS 2 9\n2 4 5\n5 0 1 4 2 3\n", "CELL_TYPES 2\n3 42\n"), "f.vtk"),
+      io::parse_vtk(vtk("CELLS 2 9\n2 4 5\n5 0 1 4 2 3\n", "CELL_TYPES 2\n3 42\n"), "f.vtk"),
       Contains("f.vtk: has 1 polyhedra, which are not read"));
-  CHECK_THROWS_WITH(io::parse_gmsh_cells(gmsh("1\n1 777 0 10 11 14 12 13\n"), "f.msh"),
+  CHECK_THROWS_WITH(io::parse_gmsh(gmsh("1\n1 777 0 10 11 14 12 13\n"), "f.msh"),
                     Contains("elements of an unknown type"));
 }
 

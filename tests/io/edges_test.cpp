@@ -8,7 +8,6 @@ using namespace io_testing;
 using Catch::Contains;
 using plexway::io::Edges;
 using plexway::io::parse_edge_list;
-using plexway::io::parse_obj_lines;
 
 namespace {
 
@@ -16,6 +15,8 @@ using Wires = std::vector<std::array<std::uint32_t, 2>>;
 using Lengths = std::vector<double>;
 
 const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+constexpr auto parse_obj_lines = io_testing::edges<plexway::io::parse_obj>;
 
 std::string line_complaint(std::string_view text) { return complaint(parse_obj_lines, text); }
 std::string list_complaint(std::string_view text) { return complaint(parse_edge_list, text); }

@@ -84,7 +84,7 @@ TEST_CASE("field vtu: what is written of a solid reads back") {
   const std::string bytes = written("d.vtu", solid);
   CHECK(bytes.find("NumberOfPoints=\"6\" NumberOfCells=\"2\"") != std::string::npos);
   try {
-    check_two(plexway::io::parse_vtu(bytes, "d.vtu"));
+    check_two(io_testing::tets<plexway::io::parse_vtu>(bytes, "d.vtu"));
   } catch (const plexway::NotBuiltError&) {
   }
 }

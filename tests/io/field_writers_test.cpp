@@ -111,7 +111,7 @@ TEST_CASE("field npy: a version 1.0 array of doubles") {
 TEST_CASE("field ply: reads back as the same surface, with quality, colour and label") {
   for (const bool with_label : {false, true}) {
     const std::string bytes = written("d.ply", with_label);
-    const Triangles back = plexway::io::parse_ply(bytes, "d.ply");
+    const Triangles back = io_testing::triangles<plexway::io::parse_ply>(bytes, "d.ply");
     CHECK(back.positions == surface.positions);
     CHECK(back.triangles == surface.triangles);
 

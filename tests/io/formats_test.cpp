@@ -87,6 +87,13 @@ TEST_CASE("a file's kind is told by its first bytes where its name does not say"
                                         "1 0 0 0\n0 1 0 0\n0 1 2 0\n"))
             .triangles == Faces{{0, 1, 2}});
   CHECK(io::read_points(folder.write("cloud.asc", "0 0 0\n1 0 0\n")).positions.size() == 2);
+  // So are bytes that are in memory already.
+  for (const char* name : {"mesh.off", "mesh.dat", "mesh"})
+    CHECK(io::parse_cells(off, name).triangles == Faces{{0, 1, 2}});
+  CHECK(io::parse_points("0 0 0\n1 0 0\n", "a.xyz").positions == Positions{{0, 0, 0}, {1, 0, 0}});
+  CHECK(io::parse_points(off, "a.off").positions.size() == 3);
+  CHECK_THROWS_WITH(io::parse_cells("", "a.off"), Contains("a.off"));
+  CHECK_THROWS_WITH(io::parse_cells("no mesh", "a.dat"), Contains("a.dat: unknown extension"));
 }
 
 TEST_CASE("what cannot be read is named, with what turns it into something that can") {
@@ -199,7 +206,7 @@ TEST_CASE("hexahedra, prisms and pyramids become tetrahedra that fill them and f
       {"8 float\n" + cube + "\nCELLS 1 9\n8 0 1 2 2 4 5 6 6\nCELL_TYPES 1\n12\n", .5, 3},
   };
   for (const Case& one : cases) {
-    const io::Mixed cells = io::parse_vtk_cells(head + one.text, "f");
+    const io::Mixed cells = io::parse_vtk(head + one.text, "f");
     double volume = 0;
     for (const auto& tet : cells.tets) {
       std::array<std::array<double, 3>, 3> s{};
@@ -218,11 +225,10 @@ TEST_CASE("hexahedra, prisms and pyramids become tetrahedra that fill them and f
   }
   // A tetrahedron on half a face, on the other diagonal and on the same.
   const std::string nine = "9 float\n" + cube + " 2 .5 .5\nCELLS 2 14\n8 0 1 2 3 4 5 6 7\n";
-  CHECK(complaint(io::parse_vtk_cells, head + nine + "4 1 2 5 8\nCELL_TYPES 2\n12 10\n") ==
+  CHECK(complaint(io::parse_vtk, head + nine + "4 1 2 5 8\nCELL_TYPES 2\n12 10\n") ==
         "mesh: the triangle of vertices 1, 2 and 5 is half a face of a hexahedron or prism that is "
         "cut along the other diagonal: they need a pyramid between, or save it as tetrahedra");
-  CHECK(io::parse_vtk_cells(head + nine + "4 1 2 6 8\nCELL_TYPES 2\n12 10\n", "f").tets.size() ==
-        7);
+  CHECK(io::parse_vtk(head + nine + "4 1 2 6 8\nCELL_TYPES 2\n12 10\n", "f").tets.size() == 7);
   // A grid of cubes whose vertices have shuffled numbers: every face inside is in two tetrahedra.
   constexpr std::uint32_t n = 4;
   std::vector<std::uint32_t> number(n * n * n);
@@ -252,7 +258,7 @@ TEST_CASE("hexahedra, prisms and pyramids become tetrahedra that fill them and f
   all += "\nCELLS " + std::to_string(count) + " " + std::to_string(9 * count) + "\n" + text +
          "CELL_TYPES " + std::to_string(count) + "\n";
   for (std::size_t c = 0; c < count; ++c) all += "12 ";
-  const io::Mixed grid = io::parse_vtk_cells(all, "f");
+  const io::Mixed grid = io::parse_vtk(all, "f");
   CHECK(grid.tets.size() == 6 * count);
   std::map<std::array<std::uint32_t, 3>, int> faces;
   for (const auto& t : grid.tets)

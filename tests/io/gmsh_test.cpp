@@ -4,9 +4,10 @@ namespace gmsh_test {
 
 using namespace io_testing;
 using Catch::Contains;
-using plexway::io::parse_gmsh;
 
 namespace {
+
+constexpr auto parse_gmsh = io_testing::tets<plexway::io::parse_gmsh>;
 
 /// Tags of the vertices, in no order.
 constexpr std::array<int, 6> sparse = {17, 3, 900000000, 5, 4, 1};

@@ -17,6 +17,8 @@
 #include <plexway/io/triangles.hpp>
 
 #include "folder.hpp"
+#include "io/readers.hpp"
+#include "io/solid/cells.hpp"
 
 namespace io_testing {
 
@@ -25,6 +27,21 @@ using testing::Folder;
 inline std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+using Reader = plexway::io::Mixed(std::string_view bytes, std::string_view name);
+/// What a reader finds, as what has triangles, tetrahedra or lines only.
+template <Reader parse>
+plexway::io::Triangles triangles(std::string_view bytes, std::string_view name) {
+  return triangles_of(parse(bytes, name), name);
+}
+template <Reader parse>
+plexway::io::Tets tets(std::string_view bytes, std::string_view name) {
+  return tets_of(parse(bytes, name), name);
+}
+template <Reader parse>
+plexway::io::Edges edges(std::string_view bytes, std::string_view name) {
+  return edges_of(parse(bytes, name), name);
 }
 
 /// The message of the InputError that `parse(bytes, "mesh")` must throw.

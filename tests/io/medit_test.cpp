@@ -3,9 +3,10 @@
 namespace medit_test {
 
 using namespace io_testing;
-using plexway::io::parse_medit;
 
 namespace {
+
+constexpr auto parse_medit = io_testing::tets<plexway::io::parse_medit>;
 
 const std::string head = "MeshVersionFormatted 2\nDimension 3\n";
 

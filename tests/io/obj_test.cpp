@@ -21,9 +21,10 @@ namespace obj_test {
 
 using namespace io_testing;
 using Catch::Contains;
-using plexway::io::parse_obj;
 
 namespace {
+
+constexpr auto parse_obj = io_testing::triangles<plexway::io::parse_obj>;
 
 const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 

@@ -6,9 +6,10 @@ namespace ply_test {
 
 using namespace io_testing;
 using Catch::Contains;
-using plexway::io::parse_ply;
 
 namespace {
+
+constexpr auto parse_ply = io_testing::triangles<plexway::io::parse_ply>;
 
 std::string ply_complaint(std::string_view bytes) { return complaint(parse_ply, bytes); }
 

@@ -4,9 +4,10 @@ namespace vtk_legacy_test {
 
 using namespace io_testing;
 using Catch::Contains;
-using plexway::io::parse_vtk;
 
 namespace {
+
+constexpr auto parse_vtk = io_testing::tets<plexway::io::parse_vtk>;
 
 std::string points_text() {
   std::string text = "POINTS 6 double\n";

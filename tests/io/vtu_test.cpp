@@ -16,9 +16,10 @@ namespace plexway::vtu_test {
 
 using namespace io_testing;
 using Catch::Contains;
-using plexway::io::parse_vtu;
 
 namespace {
+
+constexpr auto parse_vtu = io_testing::tets<plexway::io::parse_vtu>;
 
 /// Whether this build reads .vtu at all.
 bool reads_vtu() {

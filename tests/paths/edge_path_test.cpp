@@ -79,7 +79,7 @@ TEST_CASE("a path from a source with an offset may stay there") {
     for (Index to = 0; to < mesh.vertex_count(); ++to) {
       field.solve(Serial{}, PointSource::at(from), by_labels());
       const double field_says = field.distances().distance[to];
-      const double traced = field.trace(to, none_wider).length, best = field.trace(to).length;
+      const double traced = field.trace(to, none_wider).length;
       if (!(traced > field_says * (1 + 1e-5))) continue;
       for (const double share : {0.5, 0.9, 0.999}) {
         std::vector<PointSource> sources = {PointSource::at(from), PointSource::at(to)};
@@ -87,7 +87,7 @@ TEST_CASE("a path from a source with an offset may stay there") {
         field.solve(Serial{}, sources, by_labels());
         const Path path = field.trace(to);
         REQUIRE(path.source < 2);
-        CHECK(path.length + sources[path.source].offset <= best * (1 + 1e-9));
+        CHECK(path.length + sources[path.source].offset <= sources[1].offset * (1 + 1e-9));
         if (path.source != 1) continue;
         CHECK(path.length == 0);
         REQUIRE(path.positions.size() == 1);

@@ -18,7 +18,6 @@ namespace filters_test {
 
 using namespace pcl_testing;
 using Catch::Contains;
-using plexway::pcl::estimate_normals;
 using plexway::pcl::finite_points;
 using plexway::pcl::set_intensity;
 using plexway::pcl::voxel_grid;
@@ -104,22 +103,6 @@ TEST_CASE("outliers: small clouds, equal points, bad options") {
   CHECK_THROWS_AS(without_outliers(sphere(10), {.neighbours = 0}), plexway::UsageError);
   CHECK_THROWS_AS(without_outliers(sphere(10), {.deviations = -1}), plexway::UsageError);
   CHECK_THROWS_AS(without_outliers(Rows{{0, 0, std::nan("")}}), plexway::InputError);
-}
-
-TEST_CASE("normals of a sphere point to its centre or away") {
-  const Rows points = sphere(5000);
-  Rows moved = points;
-  for (Row& p : moved) p[1] += 1e5;
-  const Rows normals = estimate_normals(moved);
-  double worst = 1;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double along =
-        normals[i][0] * points[i][0] + normals[i][1] * points[i][1] + normals[i][2] * points[i][2];
-    worst = std::min(worst, std::abs(along));
-    CHECK(std::hypot(normals[i][0], normals[i][1], normals[i][2]) == Approx(1));
-  }
-  CHECK(worst > 0.98);
-  CHECK(estimate_normals(Rows{{0, 0, 0}, {1, 0, 0}}) == Rows(2, {0, 0, 0}));
 }
 
 TEST_CASE("a cloud of PCL in, distances back as its intensity") {

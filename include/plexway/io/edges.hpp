@@ -36,15 +36,4 @@ void write_edges(const std::filesystem::path& file, const Edges& wireframe);
 /// The extensions `write_edges` knows, with the dot, in lower case.
 std::span<const std::string_view> edge_output_extensions();
 
-/// The polylines of a Wavefront OBJ: `v` and `l` (`v` or `v/vt`, negative indices, `\` at a line's
-/// end); each pair of neighbours is an edge, and all other statements are ignored. `name` stands
-/// for the file in messages. Throws InputError, also for a file that has faces but no lines.
-Edges parse_obj_lines(std::string_view text, std::string_view name);
-
-/// A list of edges, "a b" or "a b length" a line, vertices counted from 0. All edges have a length
-/// or none has: then it is 1. `#` starts a comment, and `%` a line that is one. There are as many
-/// vertices as a first line "vertices N" says, or else one more than the highest index. Throws
-/// InputError, also for an index so high that it can only be a mistake.
-Edges parse_edge_list(std::string_view text, std::string_view name);
-
 }  // namespace plexway::io

@@ -32,17 +32,7 @@ struct Mixed {
 /// lacks.
 Mixed read_cells(const std::filesystem::path& file);
 
-/// See read_cells.
-Mixed parse_gmsh_cells(std::string_view bytes, std::string_view name);
-/// See read_cells.
-Mixed parse_vtu_cells(std::string_view bytes, std::string_view name);
-/// See read_cells.
-Mixed parse_vtk_cells(std::string_view bytes, std::string_view name);
-/// glTF 2.0, all meshes of its scene where its nodes put them: points, lines and triangles of their
-/// positions, in base64 or in the file itself (read_cells finds files beside it, too). Its format
-/// cuts surfaces along seams of textures and normals: vertices at one place become one, but in
-/// files of plexway, which have none. Throws InputError, also for what is packed (Draco, meshopt);
-/// NotBuiltError where nlohmann-json was missing.
-Mixed parse_gltf(std::string_view bytes, std::string_view name);
+/// The same of bytes; `name` stands for them in messages, and its extension picks the format.
+Mixed parse_cells(std::string_view bytes, const std::filesystem::path& name);
 
 }  // namespace plexway::io

@@ -47,20 +47,8 @@ std::span<const std::string_view> point_output_extensions();
 /// cloud. False for anything else, unreadable files too. Cost: reads the header only.
 bool is_ply_cloud(const std::filesystem::path& file);
 
-/// Points as text, one a line, between blanks, commas, semicolons or tabs. A header, in a comment
-/// too, names the columns x, y and z, and nx, ny and nz where there are normals; others are passed
-/// over. Without one there are three, or six with normals, or with colours where their range says
-/// so. `#` starts a comment, and `%` or `//` a line that is one. A first line with a single whole
-/// number says how many points follow. Throws InputError, also for normals whose length is far from
-/// 1 (and not 0).
-Points parse_point_table(std::string_view text, std::string_view name);
-
-/// LAS 1.0 to 1.4, points of any format, but not packed as .laz. Withheld points are left out.
-/// Throws InputError.
-Points parse_las(std::string_view bytes, std::string_view name);
-
-/// The vertices of a Stanford PLY: ascii, binary little and big endian; `nx ny nz` as normals. All
-/// else is passed over. Throws InputError.
-Points parse_ply_points(std::string_view bytes, std::string_view name);
+/// The same of bytes; `name` stands for them in messages, and its extension picks the format, or
+/// where it is unknown the first bytes do.
+Points parse_points(std::string_view bytes, const std::filesystem::path& name);
 
 }  // namespace plexway::io

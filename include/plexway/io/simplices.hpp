@@ -31,7 +31,5 @@ struct Simplices {
 ///
 /// Throws InputError "FILE:LINE: cause".
 Simplices read_simplices(const std::filesystem::path& file);
-/// The same of the bytes of a file; `name` stands for it in messages. Throws InputError.
-Simplices parse_simplices(std::string_view text, std::string_view name);
 
 }  // namespace plexway::io

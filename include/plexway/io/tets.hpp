@@ -40,30 +40,4 @@ void write_tets(const std::filesystem::path& file, const Tets& solid);
 /// The extensions `read_tets` and `write_tets` know, with the dot, in lower case.
 std::span<const std::string_view> tet_extensions();
 
-/// The bytes of a file and what it is called in messages.
-struct NamedText {
-  /// All of the file; referred to.
-  std::string_view text;
-  /// Its name in messages; referred to.
-  std::string_view name;
-};
-
-/// TetGen's .node and .ele, numbered from 0 or 1; tetrahedra of 4 or 10 nodes. Throws InputError.
-Tets parse_node_ele(NamedText node, NamedText ele);
-
-/// MEDIT's .mesh, ascii, in three dimensions; sections in any order. Throws InputError.
-Tets parse_medit(std::string_view text, std::string_view name);
-
-/// Gmsh's .msh, versions 2.0 to 2.2 and 4.1, ascii or binary of either byte order; node tags may
-/// be any numbers. Throws InputError.
-Tets parse_gmsh(std::string_view bytes, std::string_view name);
-
-/// VTK's XML unstructured grid: ascii, base64 or raw, compressed by zlib or not, either byte order,
-/// any number of pieces. Throws InputError, or NotBuiltError where pugixml or zlib is missing.
-Tets parse_vtu(std::string_view bytes, std::string_view name);
-
-/// VTK's legacy .vtk with an unstructured grid, versions up to 5.1, ascii or binary. Throws
-/// InputError.
-Tets parse_vtk(std::string_view bytes, std::string_view name);
-
 }  // namespace plexway::io

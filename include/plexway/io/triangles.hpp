@@ -42,29 +42,8 @@ void write_triangles(const std::filesystem::path& file, const Triangles& surface
 /// The extensions `write_triangles` knows, with the dot, in lower case.
 std::span<const std::string_view> triangle_output_extensions();
 
-/// Wavefront OBJ: `v` and `f` (all index forms, negative indices, `\` at a line's end); all other
-/// statements are ignored. `name` stands for the file in messages. Throws InputError.
-Triangles parse_obj(std::string_view text, std::string_view name);
-
-/// Object File Format, ascii: OFF and its C, N and ST variants. Throws InputError.
-Triangles parse_off(std::string_view text, std::string_view name);
-
-/// Stanford PLY: ascii, binary little and big endian. Throws InputError.
-Triangles parse_ply(std::string_view bytes, std::string_view name);
-
-/// STL, ascii or binary. It is a soup of triangles: corners with identical coordinates become one
-/// vertex, numbered in order of first appearance. Throws InputError.
-Triangles parse_stl(std::string_view bytes, std::string_view name);
-
-/// GIfTI (.surf.gii): its first arrays of points and of triangles; ascii, base64, and base64 of
-/// zlib. Its transforms to other spaces are not applied. Throws InputError, and NotBuiltError
-/// without pugixml, or zlib where it is packed.
-Triangles parse_gifti(std::string_view bytes, std::string_view name);
-
-/// FreeSurfer's binary surfaces of triangles, such as lh.white. Throws InputError.
-Triangles parse_freesurfer(std::string_view bytes, std::string_view name);
-
-/// The labels in a GIfTI file (.label.gii), one a vertex: its first array. Throws as parse_gifti.
+/// The labels in a GIfTI file (.label.gii), one a vertex: its first array. Throws InputError, and
+/// NotBuiltError without pugixml, or zlib where it is packed.
 std::vector<std::int32_t> read_gifti_labels(const std::filesystem::path& file);
 
 }  // namespace plexway::io

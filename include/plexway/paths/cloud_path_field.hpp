@@ -39,13 +39,11 @@ class PathField<PointCloud<Real>> {
   const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
                                    const PropagateOptions& options = {}) {
     solved_ = false;
-    constexpr bool keeps_labels =
-        std::is_same_v<WorkspaceOf<Executor, PointCloud<Real>>, Workspace<Real>>;
-    if constexpr (keeps_labels)
+    if constexpr (std::is_same_v<WorkspaceOf<Executor, PointCloud<Real>>, Workspace<Real>>)
       plexway::solve(executor, *cloud_, sources, options, workspace_, field_);
     else
       field_ = plexway::solve(executor, *cloud_, sources, options);
-    took(sources, options.visibility, keeps_labels && field_.accuracy == Accuracy::fast());
+    took(sources, options.visibility);
     return field_;
   }
   /// From one source.
@@ -74,7 +72,7 @@ class PathField<PointCloud<Real>> {
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  void took(std::span<const PointSource> sources, Visibility visibility, bool labels);
+  void took(std::span<const PointSource> sources, Visibility visibility);
 
   const PointCloud<Real>* cloud_;
   std::span<const std::array<double, 3>> places_;  // of the sheet's vertices, or none
@@ -85,7 +83,7 @@ class PathField<PointCloud<Real>> {
   DistanceField<Real> field_, sheet_;  // at the points, and at the sheet's vertices if more
   std::vector<PointSource> sources_;
   Visibility visibility_ = Visibility::saddles;
-  bool solved_ = false, labels_ = false;
+  bool solved_ = false;
 };
 
 extern template class PathField<PointCloud<float>>;

@@ -23,6 +23,7 @@
 namespace plexway {
 
 class Cells;
+struct CellField;
 template <class Real>
 struct Solved;
 
@@ -54,9 +55,9 @@ class PathField<Domain<Real>> {
  public:
   /// `positions`, one a vertex in the caller's order and unit, are those the domain was made from.
   /// With them paths have coordinates, and all lengths are taken from them in double. Throws
-  /// UsageError for another count. Cost: linear; 4 bytes a vertex, and a tetrahedron, and 8 an edge
-  /// of a wireframe; 50 a triangle of a surface with refracting edges, 60 a tetrahedron without
-  /// coordinates.
+  /// UsageError for another count. Cost: linear; 4 bytes a vertex, and a tetrahedron, and 40 an
+  /// edge of a wireframe; 50 a triangle of a surface with refracting edges, 60 a tetrahedron
+  /// without coordinates.
   explicit PathField(const Domain<Real>& domain,
                      std::span<const std::array<double, 3>> positions = {});
 
@@ -176,6 +177,7 @@ class PathField<Domain<Real>> {
     return delaunay_ ? given_outer_ : outer_;
   }
   [[nodiscard]] Solved<Real> solved() const;
+  [[nodiscard]] CellField cell_field() const;
 
   const Domain<Real>* domain_;         // that fields are solved on
   const Domain<Real>* given_;          // that points are in: mostly the same
@@ -183,7 +185,7 @@ class PathField<Domain<Real>> {
   std::span<const std::array<double, 3>> positions_;
   std::vector<Index> outer_;            // from vertices inside to the caller's
   std::vector<Index> given_outer_;      // the same of `given_`, where that is another
-  std::vector<Index> outer_simplices_;  // of tetrahedra inside, and of the arcs of wireframes
+  std::vector<Index> outer_simplices_;  // of tetrahedra inside
   Workspace<Real> workspace_;
   DistanceField<Real> field_;
   std::vector<PointSource> sources_;        // in the domain
@@ -191,7 +193,7 @@ class PathField<Domain<Real>> {
   Visibility visibility_ = Visibility::saddles;
   bool solved_ = false;
   Kept kept_ = Kept::nothing;
-  // Where paths are refracted, and in solids of intrinsic lengths.
+  // Where paths are refracted, in solids of intrinsic lengths, and along wires.
   std::shared_ptr<const Cells> cells_;
   std::vector<double> cell_distance_;
 };

@@ -6,9 +6,7 @@
 #include <limits>
 
 #include "labels/read_out.hpp"
-#include "labels/solid/plain_solid_rule.hpp"
-#include "labels/solid/solid_propagation.hpp"
-#include "labels/solid/solid_read_out.hpp"
+#include "labels/simplicial/simplex_propagation.hpp"
 #include "labels/surface/saddle_rule.hpp"
 #include "labels/surface/triangle_propagation.hpp"
 #include "labels/wavefront.hpp"
@@ -16,20 +14,18 @@
 namespace plexway::gl {
 namespace {
 
-using Wave = Wavefront<float, PlainSolidLabel<float>, DualQueue<float>, true>;
-using Rule = PlainSolidRule<float, Wave>;
+using SolidLabel = SimplexLabel<float, 3>;
+using Wave = Wavefront<float, SolidLabel, DualQueue<float>, true>;
 
 // The serial rule in the host's workspace, in which labels wait until they are taken to the device.
 class HostFront {
  public:
   HostFront(const TetMesh<float>& mesh, const PropagateOptions& options,
             WorkspaceState<float>& workspace)
-      : front_(make(mesh, options, workspace)),
-        rule_(mesh, front_),
-        propagation(mesh, rule_, front_, options) {}
+      : front_(make(mesh, options, workspace)), propagation(mesh, front_, options) {}
 
   void know(Index t, GLuint distance, const SolidCell& cell) {
-    PlainSolidLabel<float> label;
+    SolidLabel label;
     std::copy(cell.distance2.begin(), cell.distance2.end(), label.distance2);
     label.sigma = cell.sigma;
     label.centre = std::bit_cast<float>(distance);
@@ -47,10 +43,10 @@ class HostFront {
   template <class Take>
   void drain(const Take& take) {
     Index t = 0;
-    const auto distance_of = [&](Index u) { return rule_.distance(u); };
+    const auto distance_of = [&](Index u) { return front_.label(u).centre; };
     do {
       while (front_.next(t, distance_of)) {
-        const PlainSolidLabel<float>& label = front_.label(t);
+        const SolidLabel& label = front_.label(t);
         SolidCell cell = {{},
                           static_cast<GLuint>(front_.hinge(t)) | SolidCell::known,
                           label.sigma,
@@ -68,16 +64,15 @@ class HostFront {
     const std::size_t tets = mesh.tet_count();
     workspace.front.reserve(tets);
     workspace.start(tets, true);
-    return Wave(workspace.marks, workspace.plain_solids.reserve(tets + 1),
+    return Wave(workspace.marks, workspace.simplex.reserve<3>(tets + 1),
                 DualQueue<float>(workspace.front, std::numeric_limits<float>::infinity()),
                 workspace.source.data(), tets, mesh.unit(), options);
   }
 
   Wave front_;
-  Rule rule_;
 
  public:
-  SolidPropagation<float, Rule, Wave> propagation;
+  detail::SimplexPropagation<TetMesh<float>, Wave> propagation;
 };
 
 PropagateOptions without_limits(const PropagateOptions& options) {
@@ -131,7 +126,7 @@ void SolidSeeds::add(const TetMesh<float>& mesh, std::span<const PointSource> so
   HostFront host(mesh, options, workspace);
   for (std::size_t n = 0; n < sources.size(); ++n) {
     host.propagation.seed(sources[n], static_cast<Index>(n));
-    offer_corners(mesh, sources[n], [&](Index v, double d) {
+    detail::offer_corners(mesh, sources[n], [&](Index v, double d) {
       offers.push_back({static_cast<GLuint>(field * mesh.vertex_count() + v),
                         std::bit_cast<GLuint>(static_cast<float>(d)), static_cast<GLuint>(n), 0});
     });

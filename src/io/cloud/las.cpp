@@ -4,9 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include <plexway/io/points.hpp>
-
 #include "io/numbers.hpp"
+#include "io/readers.hpp"
 #include "io/surface/polygons.hpp"
 
 namespace plexway::io {

@@ -2,10 +2,9 @@
 
 #include <string>
 
-#include <plexway/io/points.hpp>
-
 #include "io/file_bytes.hpp"
 #include "io/names.hpp"
+#include "io/readers.hpp"
 #include "io/surface/ply_body.hpp"
 
 namespace plexway::io {

@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/io/points.hpp>
-
 #include "io/names.hpp"
+#include "io/readers.hpp"
 #include "io/surface/polygons.hpp"
 #include "io/text_scanner.hpp"
 

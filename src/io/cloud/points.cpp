@@ -30,16 +30,8 @@ void require_sound_points(const Points& points) {
 
 void write_xyz(OutputFile& out, const Points& points) {
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
-    std::string_view separator = "";
-    const auto write_row = [&](const std::array<double, 3>& row) {
-      for (const double c : row) {
-        out.write(separator);
-        out.write_text(c);
-        separator = " ";
-      }
-    };
-    write_row(points.positions[i]);
-    if (!points.normals.empty()) write_row(points.normals[i]);
+    out.write_row(points.positions[i], " ");
+    if (!points.normals.empty()) out.write(" "), out.write_row(points.normals[i], " ");
     out.write("\n");
   }
 }

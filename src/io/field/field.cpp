@@ -19,21 +19,13 @@ namespace plexway::io {
 
 void write_csv(OutputFile& out, const Field& field) {
   out.write(field.positions.empty() ? "vertex,distance" : "vertex,x,y,z,distance");
-  field.each_more([&](const char* name, auto) {
-    out.write(",");
-    out.write(name);
-  });
+  field.each_more([&](const char* name, auto) { out.write(",", name); });
   out.write("\n");
   for (std::size_t i = 0; i < field.distance.size(); ++i) {
-    const auto put = [&](auto number) {
-      out.write(",");
-      out.write_text(number);
-    };
-    out.write_text(i);
-    if (!field.positions.empty())
-      for (const double c : field.positions[i]) put(c);
-    put(field.distance[i]);
-    field.each_more([&](const char*, auto numbers) { put(numbers[i]); });
+    out.write(i, ",");
+    if (!field.positions.empty()) out.write_row(field.positions[i], ","), out.write(",");
+    out.write(field.distance[i]);
+    field.each_more([&](const char*, auto numbers) { out.write(",", numbers[i]); });
     out.write("\n");
   }
 }

@@ -10,6 +10,7 @@
 
 #include <plexway/error.hpp>
 
+#include "complexes/common/box_tree.hpp"
 #include "complexes/solid/shared_faces.hpp"
 #include "io/base64.hpp"
 #include "io/field/colours.hpp"
@@ -147,13 +148,9 @@ class Document {
 
   // Far from the origin single precision would lose the shape: then the node moves it there.
   void write_positions() {
-    constexpr double far = std::numeric_limits<double>::infinity();
-    std::array<double, 3> low{far, far, far}, high{-far, -far, -far};
-    for (const std::size_t v : kept_)
-      for (std::size_t k = 0; k < 3; ++k) {
-        low[k] = std::min(low[k], field_.positions[v][k]);
-        high[k] = std::max(high[k], field_.positions[v][k]);
-      }
+    auto box = Box<3>::empty();
+    const auto& [low, high] = box;
+    for (const std::size_t v : kept_) box.add(field_.positions[v]);
     double extent = 0, away = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       extent = std::max(extent, high[k] - low[k]);

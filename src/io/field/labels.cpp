@@ -7,6 +7,7 @@
 #include <plexway/io/labels.hpp>
 #include <plexway/io/triangles.hpp>
 
+#include "io/field/value_source.hpp"
 #include "io/file_bytes.hpp"
 #include "io/names.hpp"
 #include "io/number_rows.hpp"
@@ -63,14 +64,10 @@ std::vector<std::int64_t> read_vertex_labels(const std::filesystem::path& path,
 
 namespace {
 
-class AnnotationReader : public BinaryNumbers<AnnotationReader> {
+class AnnotationReader : public ByteValues {
  public:
   AnnotationReader(std::string_view bytes, std::string_view name)
-      : BinaryNumbers(bytes, std::endian::big, 0), name_(name) {}
-
-  [[noreturn]] void fail(const std::string& cause) const {
-    throw InputError(std::string(name_) + ": " + cause);
-  }
+      : ByteValues(bytes, name, std::endian::big) {}
 
   std::vector<std::int64_t> read() {
     const std::size_t vertices = count(8, "vertices");
@@ -126,7 +123,6 @@ class AnnotationReader : public BinaryNumbers<AnnotationReader> {
     }
   }
 
-  std::string_view name_;
   std::unordered_map<std::int64_t, std::int64_t> number_of_;
 };
 

@@ -47,12 +47,9 @@ void require_sound(const std::string& what, const Field& mesh) {
 void write_vertices(OutputFile& out, const Field& mesh, std::string_view before,
                     std::string_view behind, std::optional<std::size_t> first = {}) {
   for (std::size_t i = 0; i < mesh.vertices; ++i) {
-    if (first) out.write_text(i + *first);
+    if (first) out.write(i + *first);
     out.write(before);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (k > 0) out.write(" ");
-      out.write_text(mesh.positions[i][k]);
-    }
+    out.write_row(mesh.positions[i], " ");
     out.write(behind);
   }
 }
@@ -62,12 +59,10 @@ void write_cells(OutputFile& out, const Field& mesh, std::uint32_t base, std::st
                  std::string_view behind, std::optional<std::size_t> first = {}) {
   const Cells& cells = mesh.cells.front();
   for (std::size_t i = 0; i < cells.count(); ++i) {
-    if (first) out.write_text(i + *first);
+    if (first) out.write(i + *first);
     out.write(before);
-    for (std::size_t k = 0; k < cells.corners; ++k) {
-      if (k > 0) out.write(" ");
-      out.write_text(std::uint64_t{cells.connectivity[i * cells.corners + k]} + base);
-    }
+    for (std::size_t k = 0; k < cells.corners; ++k)
+      out.write(k > 0 ? " " : "", std::uint64_t{cells.connectivity[i * cells.corners + k]} + base);
     out.write(behind);
   }
 }
@@ -223,8 +218,7 @@ void write_edges(const std::filesystem::path& file, const Edges& wireframe) {
         const Position &p = wireframe.positions[a], &q = wireframe.positions[b];
         length = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
       }
-      out.write(" ");
-      out.write_text(length);
+      out.write(" ", length);
     }
     out.write("\n");
   }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <string_view>
 
 #include <plexway/error.hpp>
 
+#include "complexes/common/box_tree.hpp"
 #include "io/base64.hpp"
 #include "io/field/colours.hpp"
 #include "io/field/page_text.hpp"
@@ -65,7 +67,7 @@ class PageWriter {
     for (const auto& [name, points] :
          {std::pair("sources", &page_.sources), std::pair("targets", &page_.targets),
           std::pair("dots", &page_.dots)}) {
-      out_.write(std::string(",\"") + name + "\":");
+      out_.write(",\"", name, "\":");
       write_points(*points);
     }
     out_.write(",\"paths\":[");
@@ -80,14 +82,12 @@ class PageWriter {
  private:
   /// About 1 in size around the origin, so that single precision does wherever it lies.
   void find_frame() {
-    std::array<double, 3> low = {infinite, infinite, infinite},
-                          high = {-infinite, -infinite, -infinite};
+    auto box = Box<3>::empty();
+    const auto& [low, high] = box;
     const auto add = [&](const std::array<double, 3>& p) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (!std::isfinite(p[k])) throw UsageError("page: a position is not finite");
-        low[k] = std::min(low[k], p[k]);
-        high[k] = std::max(high[k], p[k]);
-      }
+      for (const double c : p)
+        if (!std::isfinite(c)) throw UsageError("page: a position is not finite");
+      box.add(p);
     };
     const auto add_rows = [&](const auto& rows) {
       for (const auto& row : rows)
@@ -139,53 +139,38 @@ class PageWriter {
 
   void write_colours() {
     const Ticks marks = ticks(low_, high_, 6);
-    out_.write(",\"range\":[");
-    out_.write_text(low_);
-    out_.write(",");
-    out_.write_text(high_);
-    out_.write("],\"step\":");
-    out_.write_text(marks.fine_step());
-    out_.write(",\"spacing\":");
-    out_.write_text(1.1 / std::sqrt(static_cast<double>(page_.positions.size()) + 1));
-    out_.write(bar_ ? ",\"bar\":true,\"marks\":[" : ",\"bar\":false,\"marks\":[");
-    for (std::size_t k = 0; k < marks.at.size(); ++k) {
-      out_.write(k > 0 ? ",[" : "[");
-      out_.write_text((marks.at[k] - low_) / (high_ - low_));
-      out_.write(",");
-      out_.write(script_text(marks.label[k]));
-      out_.write("]");
-    }
+    out_.write(",\"range\":[", low_, ",", high_, "],\"step\":", marks.fine_step(),
+               ",\"spacing\":", 1.1 / std::sqrt(static_cast<double>(page_.positions.size()) + 1),
+               bar_ ? ",\"bar\":true,\"marks\":[" : ",\"bar\":false,\"marks\":[");
+    for (std::size_t k = 0; k < marks.at.size(); ++k)
+      out_.write(k > 0 ? ",[" : "[", (marks.at[k] - low_) / (high_ - low_), ",",
+                 script_text(marks.label[k]), "]");
     out_.write("],\"map\":[");
     const ColourMap map(page_.map);
-    const auto& table = map.table();
-    for (std::size_t k = 0; k < table.size(); ++k) {
-      out_.write(k > 0 ? ",[" : "[");
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (c > 0) out_.write(",");
-        out_.write_text(unsigned{table[k][c]});
-      }
-      out_.write("]");
-    }
+    write_rows_of<unsigned>(map.table());
     out_.write("]");
   }
 
   void write_points(std::span<const std::array<double, 3>> points) {
     out_.write("[");
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      out_.write(i > 0 ? ",[" : "[");
-      const auto at = in_frame(points[i]);
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (k > 0) out_.write(",");
-        out_.write_text(static_cast<float>(at[k]));
-      }
-      out_.write("]");
-    }
+    write_rows_of<float>(points |
+                         std::views::transform([this](const auto& p) { return in_frame(p); }));
     out_.write("]");
+  }
+
+  template <class Number, class Rows>
+  void write_rows_of(const Rows& rows) {
+    const char* open = "[";
+    for (const auto& [x, y, z] : rows) {
+      out_.write(open, static_cast<Number>(x), ",", static_cast<Number>(y), ",",
+                 static_cast<Number>(z), "]");
+      open = ",[";
+    }
   }
 
   template <class Rows>
   void write_rows(const char* name, const Rows& rows) {
-    out_.write(std::string(",\"") + name + "\":\"");
+    out_.write(",\"", name, "\":\"");
     for (const auto& row : rows)
       for (const std::uint32_t v : row) put(v);
     end_base64();

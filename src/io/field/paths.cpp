@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <ranges>
 #include <string>
 
 #include <plexway/error.hpp>
@@ -31,18 +32,11 @@ std::size_t count_points(const Paths& paths) {
   return count;
 }
 
-void write_path_row(OutputFile& out, const std::array<double, 3>& p, std::string_view between) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (i > 0) out.write(between);
-    out.write_text(p[i]);
-  }
-}
-
 void write_path_points(OutputFile& out, const Paths& paths, std::string_view before = "") {
   for (const Path& path : paths)
     for (const auto& p : path.positions) {
       out.write(before);
-      write_path_row(out, p, " ");
+      out.write_row(p, " ");
       out.write("\n");
     }
 }
@@ -54,10 +48,7 @@ void write_path_obj(OutputFile& out, const Paths& paths) {
   for (const Path& path : paths) {
     if (path.positions.size() > 1) {
       out.write("l");
-      for (std::size_t i = 0; i < path.positions.size(); ++i) {
-        out.write(" ");
-        out.write_text(next + i);
-      }
+      for (std::size_t i = 0; i < path.positions.size(); ++i) out.write(" ", next + i);
       out.write("\n");
     }
     next += path.positions.size();
@@ -74,12 +65,8 @@ void write_ply(OutputFile& out, const Paths& paths) {
   write_path_points(out, paths);
   std::size_t next = 0;
   for (const Path& path : paths) {
-    for (std::size_t i = 0; i + 1 < path.positions.size(); ++i) {
-      out.write_text(next + i);
-      out.write(" ");
-      out.write_text(next + i + 1);
-      out.write("\n");
-    }
+    for (std::size_t i = 0; i + 1 < path.positions.size(); ++i)
+      out.write(next + i, " ", next + i + 1, "\n");
     next += path.positions.size();
   }
 }
@@ -88,17 +75,14 @@ void write_vtp(OutputFile& out, const Paths& paths) {
   std::size_t lines = 0;
   for (const Path& path : paths) lines += !path.positions.empty();
   const auto begin = [&](const std::string& type, const std::string& name) {
-    out.write("<DataArray type=\"" + type + "\" Name=\"" + name + "\" format=\"ascii\">\n");
+    out.write("<DataArray type=\"", type, "\" Name=\"", name, "\" format=\"ascii\">\n");
   };
   const auto end = [&] { out.write("\n</DataArray>\n"); };
   // A number for each line.
   const auto array = [&](const std::string& type, const std::string& name, const auto& of_path) {
     begin(type, name);
-    for (const Path& path : paths) {
-      if (path.positions.empty()) continue;
-      out.write_text(of_path(path));
-      out.write(" ");
-    }
+    for (const Path& path : paths)
+      if (!path.positions.empty()) out.write(of_path(path), " ");
     end();
   };
   out.write(
@@ -110,10 +94,7 @@ void write_vtp(OutputFile& out, const Paths& paths) {
   write_path_points(out, paths);
   out.write("</DataArray>\n</Points>\n<Lines>\n");
   begin("Int64", "connectivity");
-  for (std::size_t i = 0, n = count_points(paths); i < n; ++i) {
-    if (i > 0) out.write(" ");
-    out.write_text(i);
-  }
+  out.write_row(std::views::iota(std::size_t{0}, count_points(paths)), " ");
   end();
   std::size_t offset = 0;
   array("Int64", "offsets", [&](const Path& path) { return offset += path.positions.size(); });
@@ -131,31 +112,24 @@ void write_json(OutputFile& out, const Paths& paths) {
     const Path& path = paths.all[k];
     out.write(k == 0 ? "\n{" : ",\n{");
     const auto if_reached = [&](auto number) {
-      std::isfinite(path.length) ? out.write_text(number) : out.write("null");
+      std::isfinite(path.length) ? out.write(number) : out.write("null");
     };
     out.write("\"length\": ");
     if_reached(path.length);
     out.write(", \"source\": ");
     if_reached(path.source);
-    if (!paths.values.empty()) {
-      out.write(", \"value\": ");
-      out.write_text(paths.values[path.source]);
-    }
+    if (!paths.values.empty()) out.write(", \"value\": ", paths.values[path.source]);
     out.write(", \"points\": [");
     for (std::size_t i = 0; i < path.points.size(); ++i) {
-      out.write(i == 0 ? "{\"simplex\": " : ", {\"simplex\": ");
-      out.write_text(path.points[i].simplex);
-      out.write(", \"barycentric\": [");
-      for (std::size_t j = 0; j < 4; ++j) {
-        if (j > 0) out.write(", ");
-        out.write_text(path.points[i].barycentric[j]);
-      }
+      out.write(i == 0 ? "{\"simplex\": " : ", {\"simplex\": ", path.points[i].simplex,
+                ", \"barycentric\": [");
+      out.write_row(path.points[i].barycentric, ", ");
       out.write("]}");
     }
     out.write("], \"positions\": [");
     for (std::size_t i = 0; i < path.positions.size(); ++i) {
       out.write(i == 0 ? "[" : ", [");
-      write_path_row(out, path.positions[i], ", ");
+      out.write_row(path.positions[i], ", ");
       out.write("]");
     }
     out.write("]}");

@@ -44,11 +44,13 @@ class StoredZip {
     out_.write(bytes);
     at_ += bytes.size();
   }
-  template <class Number>
-  void put_number(Number number) {
-    const auto bytes = little_endian(number);
-    put({bytes.data(), bytes.size()});
+  template <class... Numbers>
+  void put_numbers(Numbers... numbers) {
+    (out_.write_binary(numbers), ...);
+    at_ += (sizeof(Numbers) + ...);
   }
+  /// What both headers of a file have; `zip64` bytes follow for what does not fit in 32 bits.
+  void put_header(const Entry& file, std::uint16_t zip64);
 
   OutputFile& out_;
   std::uint64_t at_ = 0;

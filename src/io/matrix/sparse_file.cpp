@@ -188,24 +188,16 @@ void SparseFile::write_npz(const BlockJournal& journal,
 
 void SparseFile::write_mtx(const BlockJournal& journal, std::uint64_t entries) const {
   OutputFile out(out_);
-  out.write("%%MatrixMarket matrix coordinate real general\n");
-  out.write_text(rows_);
-  out.write(" ");
-  out.write_text(columns_);
-  out.write(" ");
-  out.write_text(entries);
-  out.write("\n");
+  out.write("%%MatrixMarket matrix coordinate real general\n", rows_, " ", columns_, " ", entries,
+            "\n");
   each_row(journal, [&](std::size_t row, std::string_view columns, std::string_view values) {
     for (std::size_t i = 0; i < columns.size() / 4; ++i) {
-      out.write_text(row + 1);
-      out.write(" ");
-      out.write_text(load<std::uint32_t>(columns.data() + 4 * i, std::endian::little) + 1ULL);
-      out.write(" ");
+      out.write(row + 1, " ",
+                load<std::uint32_t>(columns.data() + 4 * i, std::endian::little) + 1ULL, " ");
       if (number_ == MatrixNumber::float64)
-        out.write_text(load<double>(values.data() + 8 * i, std::endian::little));
+        out.write(load<double>(values.data() + 8 * i, std::endian::little), "\n");
       else
-        out.write_text(load<float>(values.data() + 4 * i, std::endian::little));
-      out.write("\n");
+        out.write(load<float>(values.data() + 4 * i, std::endian::little), "\n");
     }
   });
   out.commit();

@@ -8,9 +8,8 @@
 #include <string>
 #include <utility>
 
-#include <plexway/io/tets.hpp>
-
 #include "io/field/value_source.hpp"
+#include "io/readers.hpp"
 #include "io/solid/cells.hpp"
 
 namespace plexway::io {
@@ -380,11 +379,7 @@ Mixed parse_gmsh_body(std::string_view bytes, std::string_view name, Regions* re
 
 }  // namespace
 
-Tets parse_gmsh(std::string_view bytes, std::string_view name) {
-  return tets_of(parse_gmsh_body(bytes, name), name);
-}
-
-Mixed parse_gmsh_cells(std::string_view bytes, std::string_view name) {
+Mixed parse_gmsh(std::string_view bytes, std::string_view name) {
   return parse_gmsh_body(bytes, name);
 }
 

@@ -146,12 +146,6 @@ class Medit {
 
 }  // namespace
 
-Mixed parse_medit_cells(std::string_view text, std::string_view name) {
-  return Medit(text, name).read();
-}
-
-Tets parse_medit(std::string_view text, std::string_view name) {
-  return tets_of(parse_medit_cells(text, name), name);
-}
+Mixed parse_medit(std::string_view text, std::string_view name) { return Medit(text, name).read(); }
 
 }  // namespace plexway::io

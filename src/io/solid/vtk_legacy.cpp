@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "io/readers.hpp"
 #include "io/solid/cells.hpp"
 
 namespace plexway::io {
@@ -338,11 +339,7 @@ Mixed parse(std::string_view bytes, std::string_view name, Regions* regions = nu
 
 }  // namespace
 
-Tets parse_vtk(std::string_view bytes, std::string_view name) {
-  return tets_of(parse(bytes, name), name);
-}
-
-Mixed parse_vtk_cells(std::string_view bytes, std::string_view name) { return parse(bytes, name); }
+Mixed parse_vtk(std::string_view bytes, std::string_view name) { return parse(bytes, name); }
 
 Regions parse_vtk_regions(std::string_view bytes, std::string_view name) {
   Regions regions;

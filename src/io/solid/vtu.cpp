@@ -2,14 +2,12 @@
 // is not XML, so it is cut off first.
 // https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
 
-#include <plexway/io/tets.hpp>
-
 #include <plexway/error.hpp>
-#include <plexway/io/mixed.hpp>
 #include <plexway/io/pvtu.hpp>
 
 #include "io/file_bytes.hpp"
 #include "io/names.hpp"
+#include "io/readers.hpp"
 #include "io/solid/cells.hpp"
 #include "io/solid/vtu_data.hpp"
 
@@ -336,11 +334,7 @@ class VtuReader {
 
 }  // namespace
 
-Tets parse_vtu(std::string_view bytes, std::string_view name) {
-  return tets_of(VtuReader(bytes, name).read(), name);
-}
-
-Mixed parse_vtu_cells(std::string_view bytes, std::string_view name) {
+Mixed parse_vtu(std::string_view bytes, std::string_view name) {
   return VtuReader(bytes, name).read();
 }
 
@@ -403,29 +397,24 @@ std::vector<std::filesystem::path> read_pvtu(const std::filesystem::path& file) 
 namespace plexway::io {
 
 SurfaceFilePart parse_vtu_part(std::string_view bytes, std::string_view name) {
-  (void)parse_vtu_cells(bytes, name);
+  (void)parse_vtu(bytes, name);
   return {};
 }
 
 std::vector<std::filesystem::path> read_pvtu(const std::filesystem::path&) {
-  (void)parse_vtu_cells({}, {});
+  (void)parse_vtu({}, {});
   return {};
 }
 
-Mixed parse_vtu_cells(std::string_view, std::string_view) {
+Mixed parse_vtu(std::string_view, std::string_view) {
   throw NotBuiltError(
       "this plexway reads no .vtu: install libpugixml-dev and build it again, or save the file as "
       "legacy .vtk");
 }
 
 Regions parse_vtu_regions(std::string_view bytes, std::string_view name) {
-  (void)parse_vtu_cells(bytes, name);
+  (void)parse_vtu(bytes, name);
   return {};
-}
-
-Tets parse_vtu(std::string_view bytes, std::string_view name) {
-  Mixed none = parse_vtu_cells(bytes, name);
-  return {std::move(none.positions), std::move(none.tets)};
 }
 
 }  // namespace plexway::io

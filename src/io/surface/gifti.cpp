@@ -2,14 +2,13 @@
 // it is written (Encoding) and in which order.
 // https://www.nitrc.org/projects/gifti: GIFTI Surface Data Format, version 1.0.
 
-#include <plexway/io/triangles.hpp>
-
 #include <string>
 
 #include <plexway/error.hpp>
 
 #include "io/file_bytes.hpp"
 #include "io/names.hpp"
+#include "io/readers.hpp"
 #include "io/surface/polygons.hpp"
 
 #if PLEXWAY_IO_PUGIXML
@@ -25,24 +24,10 @@
 #include <optional>
 
 #include "io/base64.hpp"
-#include "io/numbers.hpp"
-#include "io/text_scanner.hpp"
+#include "io/field/value_source.hpp"
 
 namespace plexway::io {
 namespace {
-
-// Numbers of an array, as bytes.
-class ArrayBytes : public BinaryNumbers<ArrayBytes> {
- public:
-  ArrayBytes(std::string_view bytes, std::endian order, const std::string& where)
-      : BinaryNumbers(bytes, order, 0), where_(where) {}
-  [[noreturn]] void fail(const std::string& cause) const {
-    throw InputError(where_ + ": " + cause);
-  }
-
- private:
-  const std::string& where_;
-};
 
 class GiftiReader {
  public:
@@ -173,8 +158,8 @@ class GiftiReader {
     } else if (encoding == "Base64Binary" || encoding == "GZipBase64Binary") {
       const std::string bytes = unpacked(array, rows * N * size_of(type));
       const bool big = std::string_view(array.attribute("Endian").value()) == "BigEndian";
-      const std::string where(name_);
-      ArrayBytes in(bytes, big ? std::endian::big : std::endian::little, where);
+      const std::string where = std::string(name_) + ": an array";
+      ByteValues in(bytes, where, big ? std::endian::big : std::endian::little);
       numbers.reserve(rows * N);
       for (std::uint64_t i = 0; i < rows * N; ++i)
         numbers.push_back(in.real(type, "a number of an array"));

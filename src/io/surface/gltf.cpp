@@ -418,7 +418,7 @@ class GltfReader {
 
 }  // namespace
 
-Mixed parse_gltf_files(std::string_view bytes, std::string_view name, const GltfFiles& beside) {
+Mixed parse_gltf(std::string_view bytes, std::string_view name, const GltfFiles& beside) {
   try {
     return GltfReader(bytes, name, beside).read();
   } catch (const Json::exception&) {  // an array where an object should be, and the like
@@ -432,7 +432,7 @@ Mixed parse_gltf_files(std::string_view bytes, std::string_view name, const Gltf
 
 namespace plexway::io {
 
-Mixed parse_gltf_files(std::string_view, std::string_view name, const GltfFiles&) {
+Mixed parse_gltf(std::string_view, std::string_view name, const GltfFiles&) {
   throw NotBuiltError(std::string(name) +
                       ": this plexway reads no .glb or .gltf: install nlohmann-json3-dev and build "
                       "it again, or save the file as .ply");
@@ -441,11 +441,3 @@ Mixed parse_gltf_files(std::string_view, std::string_view name, const GltfFiles&
 }  // namespace plexway::io
 
 #endif
-
-namespace plexway::io {
-
-Mixed parse_gltf(std::string_view bytes, std::string_view name) {
-  return parse_gltf_files(bytes, name, {});
-}
-
-}  // namespace plexway::io

@@ -128,16 +128,8 @@ class ObjReader {
 
 }  // namespace
 
-Mixed parse_obj_cells(std::string_view text, std::string_view name) {
+Mixed parse_obj(std::string_view text, std::string_view name) {
   return ObjReader(text, name).read();
-}
-
-Triangles parse_obj(std::string_view text, std::string_view name) {
-  return triangles_of(parse_obj_cells(text, name), name);
-}
-
-Edges parse_obj_lines(std::string_view text, std::string_view name) {
-  return edges_of(parse_obj_cells(text, name), name);
 }
 
 }  // namespace plexway::io

@@ -1,8 +1,7 @@
 // Object File Format, ascii. One vertex and one face a line, as all writers do it: the format
 // would let fields flow over lines, but then a missing number silently shifts all that follow.
 
-#include <plexway/io/triangles.hpp>
-
+#include "io/readers.hpp"
 #include "io/surface/polygons.hpp"
 #include "io/text_scanner.hpp"
 

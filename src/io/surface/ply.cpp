@@ -107,16 +107,12 @@ class PlyReader {
 
 }  // namespace
 
-Mixed parse_ply_cells(std::string_view bytes, std::string_view name) {
+Mixed parse_ply(std::string_view bytes, std::string_view name) {
   const PlyHeader header = parse_ply_header(bytes, name);
   const Layout layout(header, name);
   return header.format == PlyFormat::ascii
              ? PlyReader(PlyText(bytes, name, header), layout).read(header)
              : PlyReader(PlyBytes(bytes, name, header), layout).read(header);
-}
-
-Triangles parse_ply(std::string_view bytes, std::string_view name) {
-  return triangles_of(parse_ply_cells(bytes, name), name);
 }
 
 }  // namespace plexway::io

@@ -6,9 +6,8 @@
 #include <bit>
 #include <string>
 
-#include <plexway/io/triangles.hpp>
-
 #include "io/numbers.hpp"
+#include "io/readers.hpp"
 #include "io/surface/polygons.hpp"
 #include "io/text_scanner.hpp"
 

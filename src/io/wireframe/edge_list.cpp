@@ -6,8 +6,7 @@
 #include <string>
 #include <utility>
 
-#include <plexway/io/edges.hpp>
-
+#include "io/readers.hpp"
 #include "io/surface/polygons.hpp"
 #include "io/text_scanner.hpp"
 

@@ -250,63 +250,11 @@ class SaddleRule : public SaddlePoses<Real> {
 
   [[nodiscard]] const Label& label(Index f) const { return front_.label(f); }
 
-  // What follows is for simplices of other complexes that share an edge or all of a triangle.
-
-  /// The source of f as a point of it sees it, behind the last bend on the way: both posed on the
-  /// edge that f's label came in by. A line that misses that edge bends at its end only if that is
-  /// a saddle: else another strip brings a path as short.
-  [[nodiscard]] Posed seen_from(Index f, const Point& q) const {
-    const TriangleRecord<Real>& t = triangles_[f];
-    const std::size_t in = front_.hinge(f);
-    const Real length = t.length[in];
-    Posed p = posed(front_.label(f));
-    const bool left = detail::left_of<Real>(p.source, p.limit[0], q) > 0;
-    const bool right = detail::left_of<Real>(p.source, p.limit[1], q) < 0;
-    if (left || right) detail::give_up_source<Real>(p, Point(p.limit[left ? 0 : 1]));
-    const auto c = Posed::Kernel::crossing(p.source, q);
-    if (p.source.h >= 0 &&
-        ((c.x[0] < 0 && t.saddle(in)) || (c.x[0] > length * c.w && t.saddle(edge_after(in)))))
-      detail::give_up_source<Real>(p, {{c.x[0] < 0 ? Real(0) : length}, Real(0)});
-    return p;
-  }
-
   /// A label comes over edge k of f from elsewhere, posed on the far side.
   void enter_posed(Index f, std::size_t k, const Posed& label, Index source) {
     enter(f, k, label, false, -1, true, source);
   }
   [[nodiscard]] const TriangleRecord<Real>& triangle(Index f) const { return triangles_[f]; }
-
-  /// A source lies at height h over (x, y) of f, y over its edge 0: the neighbours see it over
-  /// the edges; f itself gets the way by its best corner.
-  bool enter_from_above(Index f, Real x, Real y, Real h, Real sigma, Index source) {
-    const TriangleRecord<Real>& t = triangles_[f];
-    const std::size_t before = front_.updates();
-    const Real cx[3] = {0, t.length[0], t.apex_x(0)}, cy[3] = {0, 0, t.apex_h(0)};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Real d2 = (cx[i] - x) * (cx[i] - x) + (cy[i] - y) * (cy[i] - y) + h * h;
-      seed_corner(f, i, sigma + std::sqrt(d2), source);
-    }
-    if (!front_.reached(f)) return false;
-    for (std::size_t edge = 0; edge < 3; ++edge) {
-      const std::size_t i = edge, j = edge == 2 ? 0 : edge + 1;
-      const Real length = t.length[edge];
-      if (!(length > 0)) continue;
-      const Real ux = (cx[j] - cx[i]) / length, uy = (cy[j] - cy[i]) / length;
-      const Real along = (x - cx[i]) * ux + (y - cy[i]) * uy;
-      const Real off = (y - cy[i]) * ux - (x - cx[i]) * uy;
-      if (h == 0 && off < 0) continue;  // in the plane of f and already beyond this edge
-      Posed p;
-      p.source = {{length - along}, std::sqrt(off * off + h * h)};
-      p.limit[0] = p.limit[1] = p.source;
-      if (h > 0) {  // turned into the plane beyond, it is seen through this edge alone
-        p.limit[0] = {{Real(0)}, Real(0)};
-        p.limit[1] = {{length}, Real(0)};
-      }
-      p.sigma = sigma;
-      cross_posed(f, edge, p, -1, true, source);
-    }
-    return front_.updates() != before;
-  }
 
  private:
   template <class, class>

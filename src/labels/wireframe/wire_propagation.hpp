@@ -23,7 +23,14 @@ namespace plexway {
 /// the faster of the two: its expansions cost a quarter.
 inline constexpr std::size_t wire_patience = 4;
 
-/// One propagation over a wireframe, for any front.
+/// No vertex is reached.
+template <bool kLabels, class Real>
+void start_wires(const Wireframe<Real>& wireframe, WorkspaceState<Real>& workspace) {
+  workspace.vertex.assign(wireframe.vertex_count(), std::numeric_limits<Real>::infinity());
+  if constexpr (kLabels) workspace.vertex_source.assign(wireframe.vertex_count(), none);
+}
+
+/// One propagation over a wireframe, for any front, from what the workspace has.
 template <class Real, class Step, bool kLabels>
 class WirePropagation {
  public:
@@ -33,7 +40,7 @@ class WirePropagation {
                   const PropagateOptions& options)
       : wireframe_(wireframe),
         options_(options),
-        label_(start(workspace)),
+        label_(workspace.vertex.data()),
         source_(workspace.vertex_source.data()),
         spread_(wireframe, label_, source_, static_cast<Real>(options.radius / wireframe.unit())) {}
 
@@ -55,6 +62,26 @@ class WirePropagation {
   template <class Front>
   bool seed_vertex(Index v, double distance, Index number, Front& front) {
     return spread_.offer(v, static_cast<Real>(distance), number, front);
+  }
+
+  /// From what seed(front) adds until no label waits or the budget is spent, in the order of the
+  /// options. Throws Cancelled.
+  template <class Seed>
+  void run(FrontStorage& storage, const Seed& seed) {
+    constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+    if (options_.schedule == Schedule::priority) {
+      PriorityQueue<Real> front(storage);
+      seed(front);
+      spread(front, unlimited);
+      return;
+    }
+    DualQueue<Real> front(storage, step_of<Real>(options_, wireframe_.typical_edge()));
+    seed(front);
+    const bool endless = options_.schedule == Schedule::fifo;
+    if (spread(front, endless ? unlimited : wire_patience * wireframe_.arcs().size())) return;
+    PriorityQueue<Real> nearest_first(storage);
+    hand_over(nearest_first);
+    spread(nearest_first, unlimited);
   }
 
   /// Until no label waits or the budget is spent. False, with labels still waiting, if it took more
@@ -84,13 +111,6 @@ class WirePropagation {
     others_.updates += done.updates;
     others_.reached_simplices += done.reached_simplices;
     out_of_budget_ = out_of_budget;
-  }
-
-  /// No more than so many expansions from now on, of what was granted.
-  void withdraw_all_but(std::size_t expansions) {
-    const std::size_t kept = std::min(left_, expansions);
-    granted_ -= left_ - kept;
-    left_ = kept;
   }
 
   [[nodiscard]] bool out_of_budget() const { return out_of_budget_; }
@@ -126,13 +146,6 @@ class WirePropagation {
   }
 
  private:
-  [[nodiscard]] Real* start(WorkspaceState<Real>& workspace) const {
-    const std::size_t n = wireframe_.vertex_count();
-    workspace.vertex.assign(n, infinity);
-    if constexpr (kLabels) workspace.vertex_source.assign(n, none);
-    return workspace.vertex.data();
-  }
-
   /// Grants the next share of the budget and reports progress; false if the budget is spent.
   bool take_stock(Real distance) {
     if (options_.progress && granted_ > 0)

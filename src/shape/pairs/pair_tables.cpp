@@ -64,24 +64,21 @@ void write_parcels(const std::string& out, const io::MatrixFile& rows,
   io::OutputFile file(out);
   const bool csv = io::lower_extension(out) == ".csv";
   if (csv) {
-    file.write("label");
-    for (const std::int64_t label : parcels.labels) {
-      file.write(",");
-      file.write_text(label);
-    }
+    file.write("label,");
+    file.write_row(parcels.labels, ",");
     file.write("\n");
   } else {
     file.write(io::npy_header("'<f8'", std::to_string(count) + ", " + std::to_string(count)));
   }
   for (std::size_t p = 0; p < count; ++p) {
-    if (csv) file.write_text(parcels.labels[p]);
-    for (std::size_t q = 0; q < count; ++q) {
-      if (csv)
-        file.write(","), file.write_text(mean[p * count + q]);
-      else
-        file.write_binary(mean[p * count + q]);
+    const std::span<const double> means = std::span(mean).subspan(p * count, count);
+    if (!csv) {
+      for (const double m : means) file.write_binary(m);
+      continue;
     }
-    if (csv) file.write("\n");
+    file.write(parcels.labels[p], ",");
+    file.write_row(means, ",");
+    file.write("\n");
   }
   file.commit();
 }
@@ -121,34 +118,21 @@ StatisticsSummary write_statistics(const std::string& stats, const std::string& 
     io::OutputFile file(stats);
     file.write("row,vertex,reached,mean,largest,farthest\n");
     each([&](std::size_t r) {
-      file.write_text(r);
-      file.write(",");
-      file.write_text(sources[r].vertex == none ? std::int64_t{-1}
-                                                : std::int64_t{sources[r].vertex});
-      file.write(",");
-      file.write_text(static_cast<std::size_t>(row[0]));
-      for (const double number : {row[1], row[2]}) {
-        file.write(",");
-        file.write_text(number);
-      }
-      file.write(",");
-      file.write_text(vertex_of(row[3]));
-      file.write("\n");
+      const Index vertex = sources[r].vertex;
+      file.write(r, ",", vertex == none ? std::int64_t{-1} : std::int64_t{vertex}, ",",
+                 static_cast<std::size_t>(row[0]), ",", row[1], ",", row[2], ",", vertex_of(row[3]),
+                 "\n");
     });
     file.commit();
   }
   if (!histogram.empty()) {
     io::OutputFile file(histogram);
     file.write("from,to,count\n");
-    for (std::size_t b = 0; b < counts.size(); ++b) {
-      file.write_text(static_cast<double>(b) * width);
-      file.write(",");
-      file.write_text(b + 1 < counts.size() ? static_cast<double>(b + 1) * width
-                                            : std::numeric_limits<double>::infinity());
-      file.write(",");
-      file.write_text(static_cast<std::uint64_t>(counts[b]));
-      file.write("\n");
-    }
+    for (std::size_t b = 0; b < counts.size(); ++b)
+      file.write(static_cast<double>(b) * width, ",",
+                 b + 1 < counts.size() ? static_cast<double>(b + 1) * width
+                                       : std::numeric_limits<double>::infinity(),
+                 ",", static_cast<std::uint64_t>(counts[b]), "\n");
     file.commit();
   }
   return summary;

@@ -176,12 +176,13 @@ Summary summary_of(const PathCommand& command, const Domain& domain, const PathO
 // Things the user should know about paths that were found.
 Notes path_notes_on(const PathOutcome& outcome, const std::vector<PointSource>& sources,
                     std::size_t unreached) {
-  std::size_t capped = 0, apart = 0;
+  std::size_t capped = 0, apart = 0, none_long = 0;
   double most = 0;
   for (std::size_t k = 0; k < outcome.paths.size(); ++k) {
     const Path& path = outcome.paths[k];
     if (path.source == none) continue;
     capped += path.capped;
+    none_long += path.length == 0;
     const double length = path.length + sources[path.source].offset;
     const double gap = length > 0 ? std::abs(outcome.promised[k] / length - 1) : 0;
     if (!(gap > 0.01) || !std::isfinite(gap)) continue;
@@ -196,6 +197,10 @@ Notes path_notes_on(const PathOutcome& outcome, const std::vector<PointSource>& 
   if (apart > 0)
     notes.add(counted(apart, "paths") + ": the length differs from the distance by up to " +
               short_number(100 * most) + " %: one of the two is off");
+  if (none_long > 0)
+    notes.add(counted(none_long, "paths") +
+              ": both ends are in one place, so the length is 0; if they are not meant to be, are "
+              "the units those of the file?");
   if (unreached > 0) notes.add(counted(unreached, "targets") + " not reached: there is no path");
   return notes;
 }

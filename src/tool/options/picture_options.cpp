@@ -194,6 +194,10 @@ void report_picture(const PictureArguments& arguments, const Domain& domain, Sum
 
 void check_picture(const PictureArguments& arguments, const std::string& input) {
   if (!arguments.wanted()) {
+    if (!arguments.isosurfaces.empty())
+      throw UsageError(
+          "--isosurfaces draws: it needs --picture FILE or --html FILE; files have them by "
+          "--isoline-step STEP --isolines-out FILE");
     if (options_given(arguments))
       throw UsageError(
           "--view, --size, --range, --clip and the like need --picture FILE or --html FILE");

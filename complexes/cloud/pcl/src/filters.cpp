@@ -1,11 +1,9 @@
 #include <plexway/pcl/filters.hpp>
 
-#include <pcl/features/normal_3d_omp.h>
 #include <pcl/filters/statistical_outlier_removal.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
-#include <pcl/search/kdtree.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +12,7 @@
 
 #include <plexway/error.hpp>
 
+#include "complexes/common/box_tree.hpp"
 #include "quiet.hpp"
 
 namespace plexway::pcl {
@@ -29,15 +28,14 @@ class Frame {
   explicit Frame(std::span<const Row> points) {
     if (points.size() >= static_cast<std::size_t>(std::numeric_limits<int>::max()))
       throw InputError("the cloud has more points than PCL's 31 bits count");
-    Row low = points.empty() ? Row{} : points[0], high = low;
+    auto box = Box<3>::empty();
     for (std::size_t i = 0; i < points.size(); ++i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (!std::isfinite(points[i][k]))
-          throw InputError("point " + std::to_string(i) + " is not finite");
-        low[k] = std::min(low[k], points[i][k]);
-        high[k] = std::max(high[k], points[i][k]);
-      }
+      for (const double x : points[i])
+        if (!std::isfinite(x)) throw InputError("point " + std::to_string(i) + " is not finite");
+      box.add(points[i]);
     }
+    if (points.empty()) return;
+    const auto& [low, high] = box;
     corner_ = low;
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -138,28 +136,6 @@ std::vector<Index> without_outliers(std::span<const Row> points, const OutlierOp
   for (const auto i : kept) numbers.push_back(static_cast<Index>(i));
   std::sort(numbers.begin(), numbers.end());
   return numbers;
-}
-
-std::vector<Row> estimate_normals(std::span<const Row> points, int neighbours) {
-  const Frame frame(points);
-  std::vector<Row> normals(points.size(), Row{0, 0, 0});
-  if (points.size() < 3) return normals;
-  const Quiet quiet;
-  ::pcl::NormalEstimationOMP<::pcl::PointXYZ, ::pcl::Normal> estimation;
-  estimation.setInputCloud(frame.to_pcl(points));
-  estimation.setSearchMethod(std::make_shared<::pcl::search::KdTree<::pcl::PointXYZ>>());
-  estimation.setKSearch(neighbours_of("estimate_normals", neighbours, points.size()) + 1);
-  ::pcl::PointCloud<::pcl::Normal> found;
-  estimation.compute(found);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Row normal = {static_cast<double>(found[i].normal_x),
-                        static_cast<double>(found[i].normal_y),
-                        static_cast<double>(found[i].normal_z)};
-    const double length = std::hypot(normal[0], normal[1], normal[2]);
-    if (!(length > 0) || std::isinf(length)) continue;
-    for (std::size_t k = 0; k < 3; ++k) normals[i][k] = normal[k] / length;
-  }
-  return normals;
 }
 
 }  // namespace plexway::pcl

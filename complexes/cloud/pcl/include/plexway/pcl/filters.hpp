@@ -34,9 +34,4 @@ struct OutlierOptions {
 std::vector<Index> without_outliers(std::span<const std::array<double, 3>> points,
                                     const OutlierOptions& options = {});
 
-/// Unit normals of the planes through the nearest `neighbours` points, by pcl::NormalEstimationOMP;
-/// their signs mean nothing, and 0 0 0 stands where there is no plane. Throws as above.
-std::vector<std::array<double, 3>> estimate_normals(std::span<const std::array<double, 3>> points,
-                                                    int neighbours = 16);
-
 }  // namespace plexway::pcl

@@ -1,4 +1,4 @@
-#include "sampling/cells.hpp"
+#include "paths/cells.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -190,6 +190,12 @@ template <class Real>
 ComplexCells<Real>::ComplexCells(const TetMesh<Real>& solid)
     : ComplexCells({{&solid, 0, static_cast<Index>(solid.vertex_count()), 0,
                      static_cast<Index>(solid.tet_count())}},
+                   {}) {}
+
+template <class Real>
+ComplexCells<Real>::ComplexCells(const Wireframe<Real>& wireframe)
+    : ComplexCells({{&wireframe, 0, static_cast<Index>(wireframe.vertex_count()), 0,
+                     static_cast<Index>(wireframe.edge_count())}},
                    {}) {}
 
 template <class Real>

@@ -93,14 +93,15 @@ class Cells {
   std::vector<Index> around_;
 };
 
-/// Of a mixed domain, a surface whose triangles may measure their edges differently, or a solid,
-/// which may have intrinsic lengths; it must outlive them.
+/// Of a mixed domain, a surface whose triangles may measure their edges differently, a solid, which
+/// may have intrinsic lengths, or a wireframe; it must outlive them.
 template <class Real>
 class ComplexCells final : public Cells {
  public:
   explicit ComplexCells(const MixedComplex<Real>& domain);
   explicit ComplexCells(const TriangleMesh<Real>& surface);
   explicit ComplexCells(const TetMesh<Real>& solid);
+  explicit ComplexCells(const Wireframe<Real>& wireframe);
   [[nodiscard]] Cell cell(Index simplex) const override;
   [[nodiscard]] std::array<Index, 4> outer_corners(Index simplex) const override;
 
