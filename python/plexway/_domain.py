@@ -102,7 +102,7 @@ class Domain:
     @property
     def simplices(self) -> Optional[Array]:
         """Vertices of each simplex: uint32, shape (m, corners), read only and no copy; with a mask
-        those that are left, and of merged vertices the first. None for clouds and mixed domains."""
+        those that are left, and of merged vertices the first; None for clouds and mixed domains."""
         simplices: Optional[Array] = self._native.simplices
         return simplices
 
@@ -321,7 +321,8 @@ class Domain:
         distance : ndarray, shape (n,)
         error : ndarray of float64, shape (n,)
             An estimate, mostly several times too large, now and then too small; no bound. 0 where
-            unreached or exact.
+            unreached or exact. On a cloud it has the solver's error on the sheet of triangles, not
+            that of the sampling, which is mostly larger.
         """
         arguments = _arguments(None, None, radius, "saddles", accuracy)
         sources = open_sources(self, source)
@@ -431,8 +432,8 @@ class Domain:
         visibility: str = "saddles",
         progress: ProgressLike = None,
     ) -> Any:
-        """Distances from each source into a file, however many: what a call that was ended did not
-        finish the next one does.
+        """Writes the distances from each source into a file of any size; the same call continues
+        after an interruption.
 
         Parameters
         ----------
@@ -453,8 +454,8 @@ class Domain:
         block : int
             So many rows are finished together.
         restart : bool
-            True: go on with what an earlier call with the same arguments left in `out`.part and
-            `out`.journal. False: begin anew.
+            True: continue what an interrupted call with the same arguments left in `out`.part and
+            `out`.journal. False: begin anew. A finished `out` is replaced in both cases.
         threads, accuracy, visibility, progress
             As in `distances`.
 
@@ -466,8 +467,8 @@ class Domain:
         Raises
         ------
         Error
-            If what an earlier call left was begun with other arguments, another process is at it,
-            or the disk has no room. What is finished stays.
+            If an interrupted call had other arguments, another process writes the file, or the
+            disk has no room. Finished rows stay.
 
         Notes
         -----
@@ -537,7 +538,8 @@ class Domain:
         Returns
         -------
         scipy.sparse.csr_matrix, shape (k, columns)
-            Needs SciPy. A source's own vertex is an entry, with the value 0.
+            Of float64; needs SciPy. A source's own vertex is an entry, with the value 0, also
+            where a mask closes it.
 
         Notes
         -----

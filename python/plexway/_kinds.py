@@ -328,7 +328,7 @@ class Cloud(Domain):
     max_normal_angle : float, optional
         In degrees: no neighbour's normal differs by more.
     smooth : bool
-        Measure along a smooth surface near the points.
+        Measure along a smooth surface near the points: against noise, but not beside thin walls.
     voxel : float, optional
         Thin to one point for each cube of this side. Numbers then count what is left.
     denoise : bool

@@ -62,9 +62,11 @@ def test_answer(mistake, tmp_path):
 
 
 def test_what_was_meant():
-    assert len(rows()) == 12 and len(MADE) == 11
+    assert len(rows()) == 13 and len(MADE) == 11
     sheet = px.Surface(V, F)
     with pytest.raises(IndexError):
         sheet.distance(len(V))
+    with pytest.warns(px.AccuracyWarning, match="from the domain"):
+        sheet.distance(np.array([17.0, 3.0, 200.0]))
     a, b = sheet.distances([0, 5])
     assert np.array_equal(sheet.distance([0, 5]), np.minimum(a, b))

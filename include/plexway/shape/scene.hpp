@@ -17,7 +17,7 @@ struct SceneContent {
   std::span<const double> distance = {};     ///< one a vertex, or none
   std::span<const std::int32_t> label = {};  ///< one a vertex, or none: then colours show cells
   /// Of a surface that is coloured by `distance`: triangles on which that is nearer to linear
-  /// (AnyPathField::fine), or null. It must stay as well.
+  /// (fine_field of shape/isolines.hpp), or null. It must stay as well.
   const FineField* fine = nullptr;
   ///@{
   /// Balls in red and in white, and smaller ones.
