@@ -26,6 +26,11 @@ void Solver::measure_reach() {
   reach_.back() = *std::max_element(reach_.begin(), reach_.end());
 }
 
+void Solver::keep_near(double share) {
+  measure_reach();
+  for (double& reach : reach_) reach *= share;
+}
+
 void Solver::clear() {
   sources_.clear();
   roots_.clear();

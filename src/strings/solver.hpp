@@ -50,6 +50,9 @@ class Solver {
   }
   /// No source, and nothing is reached. Cost: what was reached.
   void clear();
+  /// Where sources are points of one front, as near to each other as vertices are: a vertex keeps
+  /// those that may be the nearest within this share of its reach.
+  void keep_near(double share);
   /// Further sources, numbered on, as far as they are nearer than those before. The limits are for
   /// these alone.
   bool add(std::span<const Source> sources, const Limits& limits);
