@@ -36,8 +36,8 @@ struct Serial {
 /// Several threads of one process.
 ///
 /// The step is that of Serial. Surfaces, clouds and wireframes are cut into pieces, which exchange
-/// labels or windows over their borders; pieces of a mixed domain, as they are, take their turns at
-/// once, with Serial's bits; one field of a solid or of a complex of any dimension is one thread's.
+/// labels or windows over their borders; one field of a solid, of a mixed domain of several pieces
+/// or of a complex of any dimension is one thread's, with Serial's bits.
 /// Either way the result does not depend on the number of threads or on their timing: it is the
 /// same to the last bit, also where a propagation is cut short by max_expansions. Exact windows, a
 /// domain of a single piece and distances in wireframes have Serial's bits. Else it differs where
