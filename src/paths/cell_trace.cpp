@@ -327,7 +327,8 @@ Path trace_cells(const CellField& field, const PointSource& point) {
     path.source = static_cast<Index>(way->goal);
     const double length = path.length + goals[way->goal].offset;
     if (length < whole) whole = length, best = std::move(path);
-    if (whole > promised * (1 - doubt) && whole <= promised * (1 + close)) break;
+    const bool doubtful = start.vertex != none && whole < promised * (1 - doubt);
+    if (!doubtful && whole <= promised * (1 + close)) break;
   }
   add_positions(field, best);
   return best;

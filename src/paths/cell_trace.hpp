@@ -37,8 +37,8 @@ std::vector<double> cell_distances(const Cells& cells, std::span<const Real> fie
 /// A shortest path from vertices' distances alone: the shortest way over places in the cells
 /// (search_cells), pulled taut, and searched again over places around the vertices and edges that
 /// hold it, until nothing is gained. Where that is longer by more than 3e-4 than the distance,
-/// inside a cell than a way by one of its corners, or shorter by more than 1e-2, so that the
-/// distance is off, with more places. An empty path where none leads.
+/// inside a cell than a way by one of its corners, or at a vertex shorter by more than 1e-2, so
+/// that the distance is off, with more places. An empty path where none leads.
 Path trace_cells(const CellField& field, const PointSource& point);
 
 /// The distance of a point: the length of its path, but inside of a cell none longer than by a

@@ -47,8 +47,8 @@ std::vector<Warning> cloud_warnings(const CloudSummary& cloud, Reader reader,
     warning(counted(cloud.chord_points, "points") + " (" + std::to_string(cloud.first_chord) +
             " is the first) at sharp ridges where points do not tell how the surface runs: edges "
             "cut through the inside, and distances over them may be far too short; more points "
-            "near the ridge or less noise (" +
-            said(Advice::smooth) + ") help, and " + cure);
+            "near the ridge help, and " +
+            cure);
   if (cloud.joints > 0)
     warning(counted(cloud.joints, "pairs") +
             " of points join parts that have no triangles between them: all paths from one to the "

@@ -33,7 +33,6 @@ std::string why_disconnected(const CloudShape& cloud, std::size_t components, Re
   X(k, "k = ", "--k ", "k=")                                                                     \
   X(neighbour_radius, "their radius", "--neighbour-radius", "neighbour_radius=")                 \
   X(normal_angle, "the largest angle of normals", "--max-normal-angle", "max_normal_angle=")     \
-  X(smooth, "smoothing", "--smooth", "smooth=True")                                              \
   X(in_the_file, "", " in the file", "")                                                         \
   X(those, "those given", "those in the file", "those given")                                    \
   X(columns, "(in a file the columns nx ny nz)", "(columns nx ny nz)",                           \
