@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <ranges>
 #include <string_view>
 
 #include <plexway/error.hpp>
@@ -147,21 +147,21 @@ class PageWriter {
                  script_text(marks.label[k]), "]");
     out_.write("],\"map\":[");
     const ColourMap map(page_.map);
-    write_rows_of<unsigned>(map.table());
+    write_rows_of<unsigned>(map.table(), std::identity());
     out_.write("]");
   }
 
   void write_points(std::span<const std::array<double, 3>> points) {
     out_.write("[");
-    write_rows_of<float>(points |
-                         std::views::transform([this](const auto& p) { return in_frame(p); }));
+    write_rows_of<float>(points, [this](const auto& p) { return in_frame(p); });
     out_.write("]");
   }
 
-  template <class Number, class Rows>
-  void write_rows_of(const Rows& rows) {
+  template <class Number, class Rows, class Of>
+  void write_rows_of(const Rows& rows, const Of& of) {
     const char* open = "[";
-    for (const auto& [x, y, z] : rows) {
+    for (const auto& row : rows) {
+      const auto& [x, y, z] = of(row);
       out_.write(open, static_cast<Number>(x), ",", static_cast<Number>(y), ",",
                  static_cast<Number>(z), "]");
       open = ",[";

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <ranges>
 #include <string>
 
 #include <plexway/error.hpp>
@@ -94,7 +93,7 @@ void write_vtp(OutputFile& out, const Paths& paths) {
   write_path_points(out, paths);
   out.write("</DataArray>\n</Points>\n<Lines>\n");
   begin("Int64", "connectivity");
-  out.write_row(std::views::iota(std::size_t{0}, count_points(paths)), " ");
+  for (std::size_t i = 0, n = count_points(paths); i < n; ++i) out.write(i > 0 ? " " : "", i);
   end();
   std::size_t offset = 0;
   array("Int64", "offsets", [&](const Path& path) { return offset += path.positions.size(); });
