@@ -200,6 +200,8 @@ template <ExecutorType E, DomainType D>
 enum class Purpose { PLEXWAY_PURPOSES(PLEXWAY_NAME) };
 #undef PLEXWAY_NAME
 
+/// A purpose as a row of a table.
+#define PLEXWAY_ROW(name, what, domains, refusal) Row{domains, Refusal::refusal},
 /// Is a purpose for a kind of domain? Else why not.
 constexpr Support support_of_domain(Purpose purpose, DomainKind domain) {
   using enum DomainKind;
@@ -209,13 +211,11 @@ constexpr Support support_of_domain(Purpose purpose, DomainKind domain) {
   };
   const auto only = [&](auto... kinds) { return ((domain == kinds) || ...); };
   const auto but = [&](auto... kinds) { return ((domain != kinds) && ...); };
-/// A purpose as a row of a table.
-#define PLEXWAY_ROW(name, what, domains, refusal) Row{domains, Refusal::refusal},
   const Row rows[] = {PLEXWAY_PURPOSES(PLEXWAY_ROW)};
-#undef PLEXWAY_ROW
   const Row& row = rows[static_cast<int>(purpose)];
   return row.on_it ? Refusal::nothing : row.otherwise;
 }
+#undef PLEXWAY_ROW
 
 /// Is what a purpose gives in space?
 constexpr bool draws(Purpose purpose) {

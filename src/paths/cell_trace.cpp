@@ -25,9 +25,11 @@ Path path_of(const Cells& all, const CellString& string) {
   for (std::size_t k = 0; k < string.cells.size(); ++k) {
     const double leg = string.length(all, k);
     const Cell cell = all.cell(string.cells[k]);
-    if (!(leg > 0) && cell.corners > 2) continue;
+    const auto ends = string.leg(cell, k);
+    // Along an edge without length it goes on.
+    if (!(leg > 0) && (cell.corners > 2 || ends[0] == ends[1])) continue;
     path.length += leg;
-    path.points.push_back({string.cells[k], string.leg(cell, k)[0]});
+    path.points.push_back({string.cells[k], ends[0]});
   }
   path.points.push_back({string.cells.back(), string.end});
   return path;

@@ -67,7 +67,10 @@ class FlatSolver {
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] std::size_t bytes() const {
     const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-    return chains_.bytes() + of(hints_) + of(known_) + of(roots_) + of(reach_) + queue_.bytes();
+    std::size_t labels = 0;
+    for (const auto& vertex : known_) labels += of(vertex.labels);
+    return labels + chains_.bytes() + of(hints_) + of(known_) + of(roots_) + of(reach_) +
+           queue_.bytes();
   }
 
  private:

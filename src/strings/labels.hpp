@@ -145,6 +145,7 @@ struct VertexLabelsIn {
   /// Takes a string; false if it is of no use.
   bool take(const Label& label, const Spread& spread) {
     if (!(label.distance < limit(label.source, label.last, spread, label.distance))) return false;
+    labels.reserve(2);
     std::size_t n = 0;
     while (n < labels.size() && labels[n].distance < label.distance) ++n;
     labels.insert(labels.begin() + static_cast<std::ptrdiff_t>(n), label);

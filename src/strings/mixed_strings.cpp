@@ -65,6 +65,7 @@ void MixedStrings::solve(const MixedComplex<Real>& domain, std::shared_ptr<const
       solver_->solve(sources_, strings::limits_of(options, unit, domain.simplex_count()));
   const auto number = [&](Index vertex) { return space_->point[vertex]; };
   strings::to_field(*solver_, domain.vertex_count(), number, unit, sources, options.radius, field);
+  field.accuracy = Accuracy::accurate();
 }
 
 MixedStrings::Found MixedStrings::at(const PointSource& point) const {

@@ -88,6 +88,7 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
   field.complete = solver_->solve(sources_, strings::limits_of(options, unit, mesh.tet_count()));
   const auto number = [&](Index vertex) { return mesh.inside_vertex(vertex); };
   strings::to_field(*solver_, mesh.vertex_count(), number, unit, sources, options.radius, field);
+  field.accuracy = Accuracy::accurate();
 }
 
 SolidStrings::Found SolidStrings::found(Index vertex) const {

@@ -50,7 +50,6 @@ void to_field(const Solver& solver, std::size_t vertices, const Number& number, 
     field.distance[s.vertex] = offset;
     if (sources.size() > 1) field.label[s.vertex] = n;
   }
-  field.accuracy = Accuracy::accurate();
   field.error.clear();
   field.statistics = {};
   field.statistics.expansions = solver.counts().expansions;

@@ -369,7 +369,7 @@ TEST_CASE("a wire or a sheet that is not made of a solid's edges is noted") {
     MixedComplex<double> complex;
     const auto block = complex.add(solid, positions);
     const auto other = complex.add(part, places);
-    CHECK(complex.weld(block, other, 1e-9) == places.size());
+    CHECK(complex.weld(block, other, {.tolerance = 1e-9}) == places.size());
     const auto all = warnings(complex, solve(Serial{}, complex, 0));
     return std::any_of(all.begin(), all.end(), [](const Warning& warning) {
       return warning.text.find("1 edge of wires or surfaces leads") != std::string::npos &&
