@@ -24,7 +24,8 @@ void each_edge(const Complex& complex, const Visit& visit) {
     for (const auto& simplex : simplices)
       for (std::size_t i = 0; i < std::size(simplex.corner); ++i)
         for (std::size_t k = i + 1; k < std::size(simplex.corner); ++k)
-          visit(simplex.corner[i], simplex.corner[k]);
+          if (simplex.corner[i] != simplex.corner[k])  // as the last one's, which is none
+            visit(simplex.corner[i], simplex.corner[k]);
   };
   if constexpr (requires { complex.tets(); }) {
     all_of(complex.tets());
@@ -33,7 +34,7 @@ void each_edge(const Complex& complex, const Visit& visit) {
   } else {
     for (Index v = 0; v + 1 < complex.begin().size(); ++v)
       for (Index a = complex.begin()[v]; a < complex.begin()[v + 1]; ++a)
-        visit(v, complex.arcs()[a].to);
+        if (complex.arcs()[a].to != v) visit(v, complex.arcs()[a].to);
   }
 }
 
