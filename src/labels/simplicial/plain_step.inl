@@ -1,6 +1,6 @@
 // The plain step between simplices of dimension K + 1 that share a facet: one text for C++ (part of
-// the body of PlainSimplexRule, see simplex_rule.hpp) and GLSL, after that of the hinge kernel. Before it
-// stand
+// the body of PlainSimplexRule, see simplex_rule.hpp) and GLSL, after that of the hinge kernel.
+// Before it stand
 //   Label                        distance2[K + 2], sigma, centre: see SimplexLabel
 //   vertex_of(s, i)              corner i of simplex s
 //   corner_beyond(s, facet, n, t, i)  the corner of s that is corner i of t, which is corner n of
@@ -80,7 +80,8 @@ HINGE_METHOD PlainHinge pose_facet(HINGE_IN(Label) from, Index s, Index facet, I
   return hinge;
 }
 
-/// What the label of s offers to t straight, through the facet or past it: no bend makes it shorter.
+/// What the label of s offers to t straight, through the facet or past it: no bend makes it
+/// shorter.
 HINGE_METHOD Label offer_straight(HINGE_IN(Label) from, HINGE_IN(PlainHinge) hinge, Index t,
                                   Index apex) HINGE_READS {
   Label label;
@@ -91,8 +92,9 @@ HINGE_METHOD Label offer_straight(HINGE_IN(Label) from, HINGE_IN(PlainHinge) hin
   return label;
 }
 
-/// What it offers: `straight` where the line to the centre of t passes the facet or, with `to_apex`,
-/// the one to its apex; else a bend on the facet. Its own source is in s (`inside`) or passed it.
+/// What it offers: `straight` where the line to the centre of t passes the facet or, with
+/// `to_apex`, the one to its apex; else a bend on the facet. Its own source is in s (`inside`) or
+/// passed it.
 HINGE_METHOD Label offer_seen(HINGE_IN(Label) from, HINGE_IN(Label) straight,
                               HINGE_IN(PlainHinge) hinge, Index s, Index facet, Index t, Index apex,
                               bool inside, bool to_apex) HINGE_READS {
