@@ -65,8 +65,8 @@ class PathField<MixedComplex<Real>> {
   [[nodiscard]] const DistanceField<Real>& distances() const { return field_; }
 
   /// The path from a point back to its nearest source: no small change makes it shorter. It crosses
-  /// a hinge between two speeds where Fermat says, runs along a fast sheet where that pays, and
-  /// meets wires at their vertices only, as distances do.
+  /// a hinge between two speeds where Fermat says, and runs along a fast sheet or wire where that
+  /// pays.
   ///
   /// Where strings solve the domain it is the string to the point, as long as the distance: all
   /// pieces lie in one space, with a solid among them and no sheet of many facets, and they are not

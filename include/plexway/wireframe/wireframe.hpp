@@ -60,7 +60,7 @@ class Wireframe {
 
   /// From n positions in any unit and m edges of vertex indices < n. Throws InputError naming the
   /// edge for an index out of range or a length too large for a double, the vertex for a coordinate
-  /// that is not finite, and for no edge or more than 2^31 - 1. Cost: n log n, about 0.2 us a
+  /// that is not finite, and for more than 2^31 - 1 edges. Cost: n log n, about 0.2 us a
   /// vertex.
   Wireframe(std::span<const std::array<double, 3>> positions,
             std::span<const std::array<Index, 2>> edges);
