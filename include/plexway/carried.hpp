@@ -28,12 +28,9 @@ concept CarriedDomainType = DomainType<D> && DomainType<typename D::Carrier> &&
 };
 
 /// The base of such a domain: `class Mine : public CarriedDomain<Mine, Wireframe<float>>`. It
-/// gives its base a carrier, and may say
-///
-///   PointSource place(const PointSource&) const    where a point of its simplices is in the
-///   carrier Source whole(const SimplexSource&) const       what all of a simplex of its own is
-///   there
-///
+/// gives its base a carrier, and may have two public functions:
+/// `PointSource place(const PointSource&) const`, where a point of its simplices is in the carrier,
+/// and `Source whole(const SimplexSource&) const`, what all of a simplex of its own is there.
 /// Without them its simplices are those of the carrier, by number.
 template <class Derived, DomainType C>
 class CarriedDomain {
@@ -49,7 +46,7 @@ class CarriedDomain {
 
   /// The carrier, which it is solved on.
   [[nodiscard]] const C& carrier() const { return carrier_; }
-  /// One of the carrier's a vertex; empty: they are the carrier's own.
+  /// The carrier's number of each vertex; empty if all are the carrier's own, by number.
   [[nodiscard]] std::span<const Index> carried_vertices() const { return vertices_; }
   /// Fields have one distance each.
   [[nodiscard]] std::size_t vertex_count() const {

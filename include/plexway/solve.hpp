@@ -69,7 +69,8 @@ concept ExecutorSolves = detail::check<support(combination<E, D>()).refusal()>()
 /// Source: Trettner, Bommes, Kobbelt: Geodesic Distance Computation via Virtual Source Propagation,
 /// SGP 2021.
 //
-// Both verbs are compiled in the library (src/executors/run.hpp).
+// Both verbs are compiled in the library: in src/executors the surface, solid, wireframe, cloud,
+// simplicial and mixed.cpp, each of which says where its loop is.
 template <ExecutorType E, DomainType D>
 requires ExecutorSolves<E, D>
 void solve(const E& executor, const D& domain, const SourceList& sources,

@@ -1,3 +1,5 @@
+// On the cloud's triangles, by the loops of surface.cpp.
+
 #include "executors/cloud_field.hpp"
 #include "executors/run.hpp"
 

@@ -1,3 +1,6 @@
+// The loops: strings::Solver::add (strings/solver.cpp), or those of the pieces
+// (labels/mixed/mixed_pieces.hpp).
+
 #include <algorithm>
 #include <array>
 #include <iterator>

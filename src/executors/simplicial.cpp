@@ -1,3 +1,6 @@
+// The loop: labels/simplicial/simplex_propagation.hpp. Flat complexes have those of surface.cpp,
+// solid.cpp and strings/flat_solver.hpp.
+
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_simplices.hpp"

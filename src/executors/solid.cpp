@@ -1,3 +1,6 @@
+// The loops: strings::Solver::add (strings/solver.cpp), and for `fast` that of
+// labels/simplicial/simplex_propagation.hpp.
+
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_simplices.hpp"

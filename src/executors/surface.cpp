@@ -1,3 +1,7 @@
+// The loops: MergedWindows::spread (windows/merged_windows.cpp), ExactWindows::spread
+// (windows/exact_windows.cpp), and for `fast` TriangleSpread::share
+// (labels/surface/triangle_spread.hpp).
+
 #include "executors/checks.hpp"
 #include "executors/curve_sources.hpp"
 #include "executors/drive.hpp"

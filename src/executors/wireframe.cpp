@@ -1,3 +1,5 @@
+// The loop: labels/wireframe/wire_spread.hpp.
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
