@@ -66,8 +66,8 @@ constexpr Support support_of_windows(const Combination& c) {
   return Refusal::nothing;
 }
 
-/// Could strings, which solids are solved by (docs/contributing/methods/strings.md)? Else why not. By one
-/// thread, nearest first whatever the schedule.
+/// Could strings, which solids are solved by (docs/contributing/methods/strings.md)? Else why not.
+/// By one thread, nearest first whatever the schedule.
 constexpr Support support_of_strings(const Combination& c) {
   if (c.domain != DomainKind::solid) return Refusal::windows_domain;
   if (c.executor == ExecutorKind::gl) return Refusal::strings_gl;
