@@ -145,16 +145,15 @@ struct VertexLabelsIn {
   /// Takes a string; false if it is of no use.
   bool take(const Label& label, const Spread& spread) {
     if (!(label.distance < limit(label.source, label.last, spread, label.distance))) return false;
-    labels.reserve(2);
     std::size_t n = 0;
     while (n < labels.size() && labels[n].distance < label.distance) ++n;
-    labels.insert(labels.begin() + static_cast<std::ptrdiff_t>(n), label);
-    // Those that are of no use now make room.
+    // Those behind it that are of no use now make room.
     const auto is_own = [&](const Label& l) { return l.source == label.source; };
-    const Label& first = *std::find_if(labels.begin(), labels.end(), is_own);
-    const double longest = first.distance + spread.behind;
-    bool second = &first != &labels[n];
-    ++n;
+    const auto end = labels.begin() + static_cast<std::ptrdiff_t>(n);
+    const auto first = std::find_if(labels.begin(), end, is_own);
+    bool second = first != end;
+    const double longest = (second ? first->distance : label.distance) + spread.behind;
+    std::size_t kept = n;
     for (std::size_t k = n; k < labels.size(); ++k) {
       const Label l = labels[k];
       const bool own = is_own(l);
@@ -163,9 +162,11 @@ struct VertexLabelsIn {
                                                : lead(label, l.last, spread.reach))))
         continue;
       second = second || own;
-      labels[n++] = l;
+      labels[kept++] = l;
     }
-    labels.resize(n);
+    labels.resize(kept);
+    labels.reserve(2);
+    labels.insert(labels.begin() + static_cast<std::ptrdiff_t>(n), label);
     return true;
   }
 
