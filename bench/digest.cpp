@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -19,7 +18,6 @@
 #include <exception>
 #include <filesystem>
 #include <random>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -104,12 +102,12 @@ void add(Writer& out, const TriangleMesh<Real>& mesh) {
 template <class Real>
 void add(Writer& out, const TetMesh<Real>& mesh) {
   std::vector<Index> glued, corners, names;
-  std::vector<Real> shape;
+  std::vector<double> shape;
   for (const auto& t : mesh.tets()) {
     append(glued, t.across);
     append(glued, t.corner);
   }
-  for (const auto& p : mesh.points()) append(shape, std::array<Real, 3>{p.x, p.y, p.z});
+  for (const auto& p : mesh.points()) append(shape, std::array<double, 3>{p.x, p.y, p.z});
   for (const auto& lengths : mesh.squared_lengths()) append(shape, lengths);
   append(names, mesh.vertices_inside());
   for (Index v = 0; v < names.size(); ++v) {
@@ -118,7 +116,6 @@ void add(Writer& out, const TetMesh<Real>& mesh) {
     append(corners, at);
   }
   append(corners, mesh.pinched());
-  append(corners, mesh.reflex_list());
   for (const auto& e : mesh.pinched_edges())
     append(corners, std::array{e.vertex[0], e.vertex[1], e.begin, e.end});
   append(corners, mesh.pinched_edge_tets());

@@ -3,7 +3,6 @@
 // from Serial's and from exact answers, and whether every solve has the same bits.
 
 #include <algorithm>
-#include <cmath>
 #include <thread>
 
 #include "solver.hpp"

@@ -7,7 +7,6 @@
 #include <limits>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <plexway/paths/path_field.hpp>

@@ -1,11 +1,12 @@
 // Random plans as the fuzzers make them (tests/fuzz/fuzz_plan.hpp), with errors in a table where
 // those only hold bounds: rectangles cut out of a square, as a surface, as a complex of triangles
-// and as the prism over it, against the visibility graph of the corners; prisms over plans with
-// a crack, and paths in these. Several sources at once: in a cube against straight
-// lines, in prisms over plans against the least of a field from each. And solids of several speeds:
-// stacks of slabs, against Snell's law and head waves; two with rectangles or slits cut out of
-// both, against a refined graph. Solids welded to their own surfaces, against the solid alone and
-// the straight line.
+// and as the prism over it, against the visibility graph of the corners; prisms over plans with a
+// crack, and paths in these; plans of eight by eight cells of which a share is left out, from one
+// source and several, and cubes of cells, against the same cut finer. Several sources at once: in a
+// cube against straight lines, in prisms over plans against the least of a field from each. And
+// solids of several speeds: stacks of slabs, against Snell's law and head waves; two with
+// rectangles or slits cut out of both, against a refined graph. Solids welded to their own
+// surfaces, against the solid alone and the straight line.
 
 #include <map>
 
@@ -13,6 +14,8 @@
 #include <plexway/simplicial/kuhn_grid.hpp>
 #include <plexway/simplicial/simplicial_complex.hpp>
 
+#include "data/cell_lattice.hpp"
+#include "data/cell_plans.hpp"
 #include "data/random_stacks.hpp"
 #include "fuzz/fuzz_pierced.hpp"
 #include "fuzz/fuzz_plan.hpp"
@@ -171,6 +174,36 @@ void solve_least(const fuzz::Cut& cut, Random& random, std::size_t count, double
   errors.add(distances(solid, sources), least);
 }
 
+/// Two layers of cells, of which this share is left out, against the visibility graph.
+void solve_cells(Random& random, double left_out, std::size_t count, PlanErrors& errors) {
+  const samples::CellPlan plan(random, left_out);
+  std::vector<PointSource> sources;
+  Distances truth(plan.places.size(), std::numeric_limits<double>::infinity());
+  while (sources.size() < count) {
+    sources.push_back(PointSource::at(static_cast<Index>(random() % plan.places.size())));
+    sources.back().offset = count == 1 || random() % 2 == 0 ? 0 : 2 * share(random);
+    const auto one = plan.truth(sources.back().vertex);
+    for (std::size_t v = 0; v < truth.size(); ++v)
+      truth[v] = std::min(truth[v], sources.back().offset + one[v]);
+  }
+  errors.add(distances(plexway::TetMesh<double>(plan.places, plan.tets), sources), truth);
+}
+
+/// Cells of a cube, against the same cells cut in eight.
+void solve_lattice(Random& random, int side, double left_out, PlanErrors& errors) {
+  const auto out = samples::CellLattice::left_out(side, left_out, random);
+  const samples::CellLattice whole(side, out, 1), cut(side, out, 2);
+  const auto from = whole.any_vertex(random);
+  const auto field = [&](const samples::CellLattice& of) {
+    return distances(plexway::TetMesh<double>(of.places, of.tets),
+                     PointSource::at(of.vertex(from)));
+  };
+  const Distances found = field(whole), fine = field(cut);
+  Distances truth(found.size());
+  whole.each_vertex([&](const auto& at) { truth[whole.vertex(at)] = fine[cut.vertex(at)]; });
+  errors.add(found, truth);
+}
+
 // ---- Solids of several speeds ----
 
 /// From a vertex on a plane between two slabs, or from any.
@@ -263,8 +296,7 @@ void solve_skinned(Random& random, bool straight, PlanErrors& errors) {
   const plexway::TetMesh<double> alone(made.places, made.tets);
   const auto solid = domain.add(alone, made.places);
   const auto skin = domain.add(plexway::TriangleMesh<double>(made.skin, made.triangles), made.skin);
-  domain.weld(solid, skin,
-              {.tolerance = 1e-9, .all_edges = from % 3 == 0, .all_vertices = from % 5 == 0});
+  domain.weld(solid, skin, {.tolerance = 1e-9});
   const Index v = made.tets[from % made.tets.size()][0];
   const Distances all = distances(domain, PointSource::at(solid.vertex(v)));
   Distances found, truth = straight ? Distances() : distances(alone, PointSource::at(v));
@@ -288,8 +320,8 @@ void run(Arguments& arguments) {
   arguments.option("--plans", &plans, "How many of each kind");
   arguments.option("--seed", &seed, "Other plans by another number");
   arguments.names("--only", &only,
-                  "accurate, exact, plane, prism, sources, moved, boundary, least, stack, holes, "
-                  "slits, crack, path, skin");
+                  "accurate, exact, plane, prism, cells, lattice, sources, moved, boundary, least, "
+                  "stack, holes, slits, crack, path, skin");
   Table& table = arguments.table(
       "domain; plans; vertices; mean; long: most too long; short: most too short;"
       "off: vertices off by .1 %; far: above 1 %; above1: plans above 1 %; above3: above 3 %;"
@@ -325,6 +357,18 @@ void run(Arguments& arguments) {
   };
   of_counts("sources", {1, 2, 5, 20, 200, 2000}, solve_cube);
   of_counts("moved", {2, 5, 20, 200, 2000}, solve_moved_cube);
+  for (const double left_out : {.2, .28, .35})
+    of_counts("cells without " + std::to_string(static_cast<int>(100 * left_out)) + " %, from",
+              {1, 2, 5, 20}, [&](Random& random, std::size_t count, PlanErrors& errors) {
+                solve_cells(random, left_out, count, errors);
+              });
+  const auto lattices = [&](const std::string& name, int side, double left_out) {
+    measure("lattice " + name, [&](Random& random, PlanErrors& errors) {
+      for (std::size_t i = 0; i < plans; ++i) solve_lattice(random, side, left_out, errors);
+    });
+  };
+  lattices("of 6, 15 % left out", 6, .15);
+  lattices("of 10, 20 % left out", 10, .2);
   measure("boundary", [&](Random& random, PlanErrors& errors) {
     for (std::size_t i = 0; i < plans; ++i) solve_from_boundary(random, errors);
   });

@@ -110,7 +110,7 @@ Solid generated(Index n, bool notched, bool shuffled) {
 }
 
 template <class Real>
-Row measure(const Solid& solid, const Effort& effort) {
+Row measure(const Solid& solid, const Effort& effort, int threads) {
   const double vertices = static_cast<double>(solid.positions.size());
   const double tets = static_cast<double>(solid.tets.size());
   Row row;
@@ -139,6 +139,15 @@ Row measure(const Solid& solid, const Effort& effort) {
   row["dijkstra_ns_per_vertex"] = 1e9 * times.first / vertices;
   row["ratio"] = times.ratio;
 #endif
+  if (threads > 0) {
+    Effort by_clock = effort;
+    by_clock.processor = false;
+    Solver team(*mesh, {}, plexway::OpenMP{.threads = threads});
+    row["gain"] = 1 / take_turns(
+                          sources, by_clock, [&](Index source) { solver(source); },
+                          [&](Index source) { team(source); })
+                          .ratio;
+  }
   Errors errors;
   double updates = 0;
   for (const Truth& truth : solid.truths) {
@@ -161,14 +170,17 @@ void run(Arguments& arguments) {
   std::vector<Index> sizes = {12, 26, 44, 70};
   Effort effort{6, 2, 20};
   bool single = false;
+  int threads = 0;
   arguments.option("TRUTH", &truth, "Folder of .node, .ele and exact answers");
   arguments.option("--sizes", &sizes, "Cubes along a side of the generated solids");
   effort.add_options(arguments);
   arguments.add_limit();
+  arguments.option("--threads", &threads, "Also by so many, by the clock");
   arguments.option("--float", &single, "Float instead of double");
   Table& table = arguments.table(
       "mesh; tets; build_ns_per_tet: build ns/T %.0f; ns_per_vertex: solve ns/V %.0f;"
-      "ns_per_tet: ns/T %.0f; dijkstra_ns_per_vertex: Dijkstra ns/V %.0f; ratio %.2f;"
+      "ns_per_tet: ns/T %.0f; dijkstra_ns_per_vertex: Dijkstra ns/V %.0f; ratio %.2f; gain: times "
+      "faster by threads %.2f;"
       "mean: error mean %.1e; p99 %.1e; max %.1e; below: most below %.1e;"
       "updates_per_tet: updates/T %.2f; mesh_bytes_per_tet: mesh bytes/T %.0f;"
       "bytes_per_tet: with workspace %.0f; note");
@@ -176,7 +188,8 @@ void run(Arguments& arguments) {
     table.measure({}, arguments.limit, [&] {
       const Solid solid = make();
       return Row{{"mesh", solid.name}, {"tets", solid.tets.size()}}.update(
-          single ? measure<float>(solid, effort) : measure<double>(solid, effort));
+          single ? measure<float>(solid, effort, threads)
+                 : measure<double>(solid, effort, threads));
     });
   };
   std::vector<std::string> names;

@@ -29,6 +29,10 @@ function(plexway_pkg_config name depends)
       list(APPEND links "-l${item}")
     endif()
   endforeach()
+  get_target_property(options plexway_${name} INTERFACE_LINK_OPTIONS)
+  if(options MATCHES "gc-sections")
+    list(APPEND links -Wl,--gc-sections)
+  endif()
   list(REMOVE_DUPLICATES links)
   list(JOIN links " " links)
   list(TRANSFORM depends PREPEND "plexway-")
@@ -93,14 +97,17 @@ if(TARGET plexway_tool)
     DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions" COMPONENT tool)
   install(FILES "${pages}/fish/plexway.fish"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d" COMPONENT tool)
-  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
-      "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/docs/reference/cli.md"
+  install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/docs/reference/cli.md"
       "${PROJECT_SOURCE_DIR}/docs/reference/options.md"
       "${PROJECT_SOURCE_DIR}/docs/reference/formats.md"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/plexway" COMPONENT tool)
 endif()
 if(TARGET plexway_mpi_tool)
   install(TARGETS plexway_mpi_tool RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT mpi)
+  configure_file("${PROJECT_SOURCE_DIR}/src/tool_mpi/plexway-mpi.1.in"
+    "${PROJECT_BINARY_DIR}/plexway-mpi.1" @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/plexway-mpi.1"
+    DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT mpi)
 endif()
 foreach(part pcl openvdb tetgen hdf5)
   if(TARGET plexway_${part}_module)
@@ -113,11 +120,6 @@ foreach(part pcl openvdb tetgen hdf5)
   endif()
 endforeach()
 
-if(TARGET plexway_tetgen_helper)
-  install(FILES "${PROJECT_SOURCE_DIR}/cmake/tetgen-copyright.txt"
-    DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/plexway-tetgen" RENAME copyright COMPONENT tetgen)
-endif()
-
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/plexwayConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/plexwayConfig.cmake" INSTALL_DESTINATION "${package_dir}")
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/plexwayConfigVersion.cmake"
@@ -126,6 +128,4 @@ install(FILES
   "${PROJECT_BINARY_DIR}/plexwayConfig.cmake"
   "${PROJECT_BINARY_DIR}/plexwayConfigVersion.cmake"
   DESTINATION "${package_dir}" COMPONENT dev)
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
-  DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/libplexway-dev" COMPONENT dev)
 include(PlexwayPackage)

@@ -29,7 +29,7 @@ set(DOXYGEN_FILE_PATTERNS "*.hpp")
 set(DOXYGEN_EXCLUDE_PATTERNS "*/detail/*")
 # What implements, types that headers only declare, macros that headers take back.
 set(DOXYGEN_EXCLUDE_SYMBOLS "plexway::detail" "plexway::*::detail" "boost"
-  "plexway::JoinedPieces" "plexway::Solved" "plexway::WorkspaceState" "plexway::FlatDomain" "plexway::openvdb::Bricks"
+  "plexway::openvdb::Bricks"
   PLEXWAY_NAME PLEXWAY_CASE)
 set(DOXYGEN_STRIP_FROM_PATH
   "${PROJECT_SOURCE_DIR}/include" "${PROJECT_BINARY_DIR}/include" ${provider_headers})

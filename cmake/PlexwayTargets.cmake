@@ -58,8 +58,10 @@ function(plexway_add_component name)
   foreach(component IN LISTS arg_DEPENDS)
     target_link_libraries(${target} PUBLIC plexway::${component})
   endforeach()
-  # Who links a static library gets its objects whole; what nothing refers to in them goes again.
+  # Who links a static library gets its objects whole, and many sources are in one; what nothing
+  # refers to in them goes again, function by function.
   if(NOT BUILD_SHARED_LIBS AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
+    target_compile_options(${target} PRIVATE -ffunction-sections -fdata-sections)
     target_link_options(${target} INTERFACE LINKER:--gc-sections)
   endif()
   set_property(GLOBAL APPEND PROPERTY PLEXWAY_COMPONENTS ${name})

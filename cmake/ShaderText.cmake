@@ -39,7 +39,7 @@ endfunction()
 
 # As a script: -DROOT=<source tree> -DOUT=<file.cpp> -DSHADERS=<name.comp,name.comp,...>
 #   -DSPACE=<namespace in plexway> -DHEADER=<that declares it>
-# writes a table of all, as src/executors/gl/shader_text.hpp has it.
+# writes a table of all, as src/executors/gl/program.hpp has it.
 if(CMAKE_SCRIPT_MODE_FILE AND OUT AND SHADERS)
   string(REPLACE "," ";" shaders "${SHADERS}")
   set(table "// Made from shaders/ by cmake/ShaderText.cmake.\n#include \"${HEADER}\"\n\n")

@@ -13,6 +13,22 @@
 
 namespace samples {
 
+/// Adds the six tetrahedra of a cell; number(corner) is that of a corner.
+template <class Number>
+void add_cell(const std::array<int, 3>& cell, const Number& number,
+              std::vector<std::array<plexway::Index, 4>>& tets) {
+  std::array<std::size_t, 3> axis = {0, 1, 2};
+  do {
+    std::array<int, 3> at = cell;
+    std::array<plexway::Index, 4> tet = {number(at), 0, 0, 0};
+    for (std::size_t e = 0; e < 3; ++e) {
+      ++at[axis[e]];
+      tet[e + 1] = number(at);
+    }
+    tets.push_back(tet);
+  } while (std::next_permutation(axis.begin(), axis.end()));
+}
+
 struct CellLattice {
   int side, cuts;         ///< cells along each axis; parts of each along each axis
   std::vector<char> out;  ///< cells that are left out
@@ -32,7 +48,8 @@ struct CellLattice {
       for (int j = 0; j + 1 < most; ++j)
         for (int i = 0; i + 1 < most; ++i)
           if (out[static_cast<std::size_t>((k / cuts * side + j / cuts) * side + i / cuts)] == 0)
-            add({i, j, k});
+            add_cell(
+                {i, j, k}, [this](const auto& at) { return number(at); }, tets);
   }
   /// Of a corner of cells; none where all of them are left out.
   [[nodiscard]] plexway::Index vertex(const std::array<int, 3>& at) const {
@@ -66,19 +83,6 @@ struct CellLattice {
     }
     return n;
   }
-  void add(const std::array<int, 3>& cell) {
-    std::array<std::size_t, 3> axis = {0, 1, 2};
-    do {
-      std::array<int, 3> at = cell;
-      std::array<plexway::Index, 4> tet = {number(at), 0, 0, 0};
-      for (std::size_t e = 0; e < 3; ++e) {
-        ++at[axis[e]];
-        tet[e + 1] = number(at);
-      }
-      tets.push_back(tet);
-    } while (std::next_permutation(axis.begin(), axis.end()));
-  }
-
   std::vector<plexway::Index> number_;
 };
 

@@ -2,7 +2,6 @@
 
 // The sample solid and the sample wireframe.
 
-#include <cmath>
 #include <map>
 #include <vector>
 

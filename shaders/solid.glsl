@@ -17,8 +17,6 @@ const float facet_tolerance = 2e-4, bend_penalty = 1.0 + 32.0 * HINGE_EPSILON;
 struct Tet {
   uint across[4];  // what lies over each face: tetrahedron << 2, with the face's number there
   uint corner[4];
-  float centre[3];
-  uint reflex;
 };
 
 layout(std430, binding = 5) readonly buffer Tets { Tet tets[]; };

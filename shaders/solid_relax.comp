@@ -15,8 +15,6 @@ layout(std430, binding = 4) coherent buffer Changes { uint changes; };
 struct Tet {
   uint across[4];
   uint corner[4];
-  float centre[3];
-  uint reflex;
 };
 layout(std430, binding = 5) readonly buffer Tets { Tet tets[]; };
 layout(std430, binding = 6) readonly buffer Lengths { float lengths[]; };

@@ -4,6 +4,7 @@
 """
 
 import sys
+from importlib.metadata import requires, version
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ import plexway
 
 data = Path(sys.argv[1])
 assert "dist-packages" in plexway.__file__, plexway.__file__
+assert version("plexway") == plexway.__version__ and requires("plexway") == ["numpy"]
 
 V = np.array([[0, 0], [4, 0], [4, 3], [0, 3]])
 F = np.array([[0, 1, 2], [0, 2, 3]])

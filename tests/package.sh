@@ -43,6 +43,10 @@ if [ -e "$usr/lib/python3/dist-packages/plexway" ]; then
     /usr/bin/python3 "$source/tests/package.py" "$source/data")
 fi
 
+for package in "$folder"/*.deb; do
+  test -e "$usr/share/doc/$(dpkg-deb -f "$package" Package)/copyright"
+done
+
 # The manual page, and completions that complete.
 if command -v man >/dev/null; then
   man --warnings -l "$usr/share/man/man1/plexway.1" 2>"$folder/man.err" | grep -q -- --isoline-step

@@ -25,12 +25,13 @@ said="$(mktemp)"
 trap 'rm -f "$said"' EXIT
 
 echo "$name $("$compiler" -dumpversion | cut -d. -f1)" >"$said"
-for program in "$here"/*.cpp; do
+names="$(sed -n 's/^#ifdef IS_\([a-z_]*\).*/\1/p' "$here/programs.cpp")"
+for program in $names; do
   # Folders are words on purpose.
   # shellcheck disable=SC2086
-  errors="$(LC_ALL=C "$compiler" -std=c++20 -fsyntax-only $include "$program" 2>&1 |
-    sed -n 's/^.*: error: /  /p')"
-  printf '\n%s\n%s\n' "$(basename "$program")" "${errors:-  compiles}" >>"$said"
+  errors="$(LC_ALL=C "$compiler" -std=c++20 -fsyntax-only $include "-DIS_$program" \
+    "$here/programs.cpp" 2>&1 | sed -n 's/^.*: error: /  /p')"
+  printf '\n%s\n%s\n' "$program" "${errors:-  compiles}" >>"$said"
 done
 if [ -n "$keep" ]; then
   cp "$said" "$kept"
@@ -50,21 +51,30 @@ else
   trap 'rm -f "$said" "$said.kept" "$said.now"' EXIT
   diff "$said.kept" "$said.now"
 fi
-programs="$(find "$here" -name '*.cpp' | wc -l)"
+programs="$(printf '%s\n' "$names" | wc -l)"
 lines="$(grep -c '^  ' "$said")"
 if [ "$programs" -lt 10 ] || [ "$programs" != "$lines" ] || grep -q '^  compiles' "$said"; then
   echo "wrong programs: $lines errors of $programs programs" >&2
   exit 1
 fi
-# And the programs that users read first are right ones.
-for page in README.md docs/reference/cpp.md; do
+# And the programs that users read first are right ones; of those beside another package's the part
+# that is ours, by itself.
+for page in README.md docs/reference/cpp.md docs/coming-from.md; do
   program="$(mktemp --suffix .cpp)"
   trap 'rm -f "$said" "$said.kept" "$said.now" "$program"' EXIT
-  block="$(sed -n '/^```cpp$/,/^```$/p' "$here/../../$page" | grep -v '^```')"
+  block="$(awk '/^```cpp$/ { inside = 1; block = ""; beside = 0; next }
+    /^```$/ && inside { inside = 0; printf beside ? "{\n%s}\n" : "%s", block; next }
+    inside && /^\/\/ plexway/ { block = ""; beside = 1 }
+    inside { block = block $0 "\n" }' "$here/../../$page")"
   {
     echo '#include <iostream>'
-    printf '%s\n' "$block" | grep '^#include'
+    printf '%s\n' "$block" | sed -n '/^#include/p'
+    echo '#include <plexway/plexway.hpp>'
     echo '#include <plexway/shape/warnings.hpp>'
+    echo 'const std::vector<std::array<double, 3>> positions, V;'
+    echo 'const std::vector<std::array<int, 3>> triangles, F;'
+    echo 'const plexway::TriangleMesh<double> surface(positions, triangles);'
+    echo 'const plexway::Index other = 0;'
     echo 'int main() {'
     printf '%s\n' "$block" | grep -v '^#include'
     echo '}'
@@ -72,4 +82,4 @@ for page in README.md docs/reference/cpp.md; do
   # shellcheck disable=SC2086
   "$compiler" -std=c++20 -fsyntax-only $include "$program"
 done
-echo "wrong programs: $programs, each with one error by $name; those of README.md compile"
+echo "wrong programs: $programs, each with one error by $name; those of pages compile"

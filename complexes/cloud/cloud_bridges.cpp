@@ -7,7 +7,7 @@
 #include "complexes/cloud/crease.hpp"
 #include "complexes/common/disjoint_sets.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 struct Pair {
@@ -90,4 +90,4 @@ CloudParts bridge_parts(const SheetRule& rule, std::span<const TangentFrame> fra
   return result;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

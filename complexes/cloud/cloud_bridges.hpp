@@ -9,7 +9,7 @@
 #include "complexes/cloud/sheet_wedges.hpp"
 #include "complexes/cloud/umbrella.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What hangs together.
 struct CloudParts {
@@ -25,4 +25,4 @@ struct CloudParts {
 CloudParts bridge_parts(const SheetRule& rule, std::span<const TangentFrame> frames, Places& places,
                         SheetWedges& sheet);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,7 +6,7 @@
 
 #include "complexes/common/median.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 // On which side of a place do the neighbours of its own plane lie, by a direction in that plane?
@@ -267,4 +267,4 @@ NoisyRidge NoisyRidges::between(Index i, Index j, double farthest) {
           std::max(std::abs(a.height), std::abs(b.height)) / spacing};
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

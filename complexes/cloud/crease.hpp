@@ -7,7 +7,7 @@
 
 #include "complexes/cloud/umbrella.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Where a sharp edge runs between two places whose normals differ: along the line in which their
 /// tangent planes meet.
@@ -116,4 +116,4 @@ class NoisyRidges {
   std::vector<Index> seen_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,7 +6,7 @@
 
 #include <plexway/error.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 void check(std::span<const std::array<double, 3>> points, const Neighbours& neighbours) {
   check(neighbours);
@@ -77,4 +77,4 @@ void Neighbourhood::measure() {
   mean_square = offset.empty() ? 0 : sum / static_cast<double>(offset.size());
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -7,7 +7,7 @@
 
 #include <plexway/cloud/neighbours.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Throws InputError for a coordinate that is not finite, or lists that are not of these points.
 void check(std::span<const std::array<double, 3>> points, const Neighbours& neighbours);
@@ -41,4 +41,4 @@ struct Neighbourhood {
   std::array<Index, slots> table_;  // which points are there, by their numbers' low bits
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -80,7 +80,7 @@ Neighbours symmetric_closure(const Neighbours& neighbours) {
   return closure;
 }
 
-Neighbours symmetric_closure(const Neighbours& neighbours, Points points) {
+Neighbours symmetric_closure(const Neighbours& neighbours, const GivenPoints& points) {
   if (points.size() != neighbours.point_count())
     throw InputError(std::to_string(points.size()) + " points with neighbours of " +
                      std::to_string(neighbours.point_count()));

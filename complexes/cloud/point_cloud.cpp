@@ -19,6 +19,7 @@
 #include "complexes/surface/saddle_vertices.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 using Points = std::span<const Point3>;
@@ -284,7 +285,7 @@ TriangleMesh<Real> mesh_of(Points points, int threads, Sheet&& sheet) {
 }  // namespace
 
 template <class Real>
-PointCloud<Real>::PointCloud(Points points, const Neighbours& neighbours,
+PointCloud<Real>::PointCloud(const GivenPoints& points, const Neighbours& neighbours,
                              const CloudOptions& options)
     : surface_((check_input(points, neighbours, options),
                 mesh_of<Real>(points, options.threads,

@@ -9,7 +9,7 @@
 #include "complexes/cloud/crease.hpp"
 #include "complexes/common/median.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 using Edge = std::array<Index, 2>;
@@ -201,4 +201,4 @@ double tangent_length(const Places& places, std::span<const TangentFrame> frames
   return std::sqrt(std::max(e.square - share * e.height, 0.0));
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,7 +6,7 @@
 
 #include "complexes/cloud/umbrella.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// How long the edges of a cloud's triangles are, 0 1, 1 2 and 2 0 of each: over creases, in a
 /// cloud with `noise` (spacings) over all ridges where planes meet, and without a share `flat` of
@@ -45,4 +45,4 @@ HeightNoise height_noise(const Places& places, std::span<const TangentFrame> fra
 double tangent_length(const Places& places, std::span<const TangentFrame> frames, Index a, Index b,
                       double share);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,7 +6,7 @@
 
 #include "complexes/cloud/crease.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 using InPlane = std::array<double, 2>;
@@ -168,4 +168,4 @@ double SheetWedges::circle(const Triangle& t) const {
   return sides / (2 * std::sqrt(dot(n, n)) * static_cast<double>(reach));
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,7 +10,7 @@
 
 #include "complexes/cloud/umbrella.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Triangles thrown together one by one, and at each place the wedges of its tangent plane that
 /// they take.
@@ -87,4 +86,4 @@ class SheetWedges {
   std::vector<Wedge> wedges_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

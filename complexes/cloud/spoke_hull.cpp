@@ -9,7 +9,7 @@
 
 #include "kernel/lanes.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 std::span<const std::size_t> SpokeHull::wrap(Index place, std::span<const Spoke> spokes) {
   spokes_ = spokes;
@@ -167,4 +167,4 @@ std::size_t SpokeHull::break_ties(Index place, std::size_t at, std::size_t best)
   return spokes_[lowest].place == others ? lowest : best;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -9,7 +9,7 @@
 
 #include "complexes/common/point3.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A neighbour in the tangent plane of a place, and its image in the circle around the place.
 struct Spoke {
@@ -42,4 +42,4 @@ class SpokeHull {
   std::vector<std::size_t> hull_, ties_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -8,7 +8,7 @@
 
 #include "complexes/common/median.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr std::size_t frame_block = 1024;
@@ -287,4 +287,4 @@ std::vector<TangentFrame> tangent_frames(const Places& places, std::span<const P
   return Frames(places, given, rule, threads).make(progress);
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

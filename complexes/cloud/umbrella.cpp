@@ -13,7 +13,7 @@
 #include "complexes/cloud/spoke_hull.hpp"
 #include "complexes/common/median.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr std::size_t umbrella_block = 1024;
@@ -353,4 +353,4 @@ void set_reach(const Places& places, const Umbrellas& umbrellas, int threads,
   });
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

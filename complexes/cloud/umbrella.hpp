@@ -11,7 +11,7 @@
 
 #include "complexes/common/point3.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 class SheetWedges;
 
@@ -98,4 +98,4 @@ void trim_boundary(double widest, SheetWedges& sheet);
 /// a way along the rim would go in and out of each.
 void fill_notches(double deepest, SheetWedges& sheet);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,7 +1,6 @@
 #include "complexes/cloud/umbrella.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numbers>
 #include <span>
 #include <tuple>
@@ -11,7 +10,7 @@
 
 #include "complexes/cloud/sheet_wedges.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr std::size_t sheet_block = 1024;
@@ -316,4 +315,4 @@ void fill_notches(double deepest, SheetWedges& sheet) {
     }
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

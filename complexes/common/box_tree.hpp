@@ -11,7 +11,7 @@
 
 #include <plexway/common/ids.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// An axis-parallel box of R^N.
 template <int N>
@@ -114,7 +114,12 @@ class BoxTree {
         cost[back ? n - 1 - i : i + 1] += side.area() * (i + 1);
       }
     }
-    return static_cast<Index>(std::min_element(cost.begin() + 1, cost.end()) - cost.begin());
+    // The middle, unless another is better: where all cost the same the tree is not to be a list.
+    constexpr double rounding = 1e-12;
+    Index best = n / 2;
+    for (Index i = 1; i < n; ++i)
+      if (cost[i] < cost[best] * (1 - rounding)) best = i;
+    return best;
   }
 
   void grow(std::span<const Box<N>> boxes, Index begin, Index end) {
@@ -147,4 +152,4 @@ class BoxTree {
   std::vector<Index> items_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -14,7 +14,7 @@
 #include <plexway/common/detail/unfilled.hpp>
 #include <plexway/common/ids.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// So many simplices or vertices at a time while a domain is built: enough to be worth a thread,
 /// and as few as any number of threads can share out.
@@ -126,4 +126,4 @@ void tell_vertices(std::span<const Index> first_use, std::size_t simplices, int 
     for (const Late& one : others) apply(one.vertex, one.item);
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

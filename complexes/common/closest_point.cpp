@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include <plexway/common/closest.hpp>
 #include <plexway/error.hpp>
@@ -12,6 +11,10 @@
 #include "complexes/common/point3.hpp"
 
 namespace plexway {
+using namespace detail;
+
+namespace detail {
+
 namespace {
 
 using Vector = Point3;
@@ -153,6 +156,8 @@ PointSource source_at(const SimplexPoint& found, std::span<const Index> corners)
   return PointSource::in(static_cast<Index>(found.simplex), found.barycentric);
 }
 
+}  // namespace detail
+
 namespace {
 
 template <std::size_t N>
@@ -167,21 +172,25 @@ PointSource closest_source(Positions positions, std::span<const std::array<Index
 
 }  // namespace
 
-PointSource closest(Positions positions, std::span<const std::array<Index, 2>> edges,
+PointSource closest(const GivenPoints& positions, std::span<const std::array<Index, 2>> edges,
                     const Vector& point) {
   return closest_source(positions, edges, point);
 }
-PointSource closest(Positions positions, std::span<const std::array<Index, 3>> triangles,
+PointSource closest(const GivenPoints& positions, std::span<const std::array<Index, 3>> triangles,
                     const Vector& point) {
   return closest_source(positions, triangles, point);
 }
-PointSource closest(Positions positions, std::span<const std::array<Index, 4>> tets,
+PointSource closest(const GivenPoints& positions, std::span<const std::array<Index, 4>> tets,
                     const Vector& point) {
   return closest_source(positions, tets, point);
 }
 
+namespace detail {
+
 double squared_distance(const std::array<Vector, 3>& corners) {
   return closest(corners).squared_distance;
 }
+
+}  // namespace detail
 
 }  // namespace plexway

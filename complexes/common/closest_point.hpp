@@ -9,7 +9,7 @@
 #include <plexway/common/ids.hpp>
 #include <plexway/source/point_source.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A point of a simplex.
 struct SimplexPoint {
@@ -39,4 +39,4 @@ SimplexPoint closest_point(std::span<const std::array<double, 3>> positions,
 /// Squared distance of the origin from a triangle, which may have no area. Corners of about 1.
 double squared_distance(const std::array<std::array<double, 3>, 3>& corners);
 
-}  // namespace plexway
+}  // namespace plexway::detail

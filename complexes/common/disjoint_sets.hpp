@@ -11,7 +11,7 @@
 
 #include "complexes/common/building_blocks.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Disjoint sets of 0, 1, ..., n - 1.
 class DisjointSets {
@@ -69,4 +69,4 @@ std::size_t count_components(std::span<const std::array<Index, N>> simplices,
   return sets;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

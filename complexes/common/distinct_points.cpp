@@ -14,6 +14,8 @@
 #include "complexes/common/simplex_order.hpp"
 
 namespace plexway {
+using namespace detail;
+
 namespace {
 
 using Points = std::span<const std::array<double, 3>>;
@@ -71,6 +73,8 @@ DistinctPoints distinct_points(Points points) {
   return result;
 }
 
+namespace detail {
+
 namespace {
 
 constexpr double nearness = 1e-4;
@@ -102,6 +106,8 @@ bool may_have_near_twins(Points points, const Neighbours& neighbours) {
   }
   return false;
 }
+
+}  // namespace detail
 
 DistinctPoints without_near_twins(Points points, const Neighbours& neighbours,
                                   const DistinctPoints& places) {

@@ -6,7 +6,7 @@
 
 #include <plexway/common/ids.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Values by a key, one row a key, row k from begin[k] to begin[k + 1], each in the order in which
 /// its values come. `each(add)` calls add(key, value) for all of them; it is called twice, first to
@@ -22,4 +22,4 @@ void fill_rows(std::size_t keys, std::vector<Index>& begin, std::vector<T>& valu
   each([&](Index key, const T& value) { values[end[key]++] = value; });
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace plexway {
+namespace plexway::detail {
 
 std::uint64_t Identity::draw() noexcept {
   // A program and a module that it loads may each have a counter of their own (static libraries):
@@ -13,4 +13,4 @@ std::uint64_t Identity::draw() noexcept {
   return (place << 28) + next.fetch_add(1, std::memory_order_relaxed) + 1;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

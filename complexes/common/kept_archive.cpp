@@ -4,7 +4,7 @@
 
 #include <plexway/error.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr std::size_t archive_block = file::Checksum::block;
@@ -154,4 +154,4 @@ KeptIn::Elements KeptIn::take_elements(std::size_t size) {
   return {bytes_.data() + start, static_cast<std::size_t>(head.count)};
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -22,11 +22,11 @@
 /// memory. Blocks of 64 bytes: a header (magic, byte order, version), then for each part the size
 /// of an element, their count, and the elements, in the same block if they fit and else from the
 /// next one on, and a trailer with the size of the file and the checksum of all before.
-namespace plexway {
+namespace plexway::detail {
 
 /// Goes up when the meaning of any part changes: what was built before it is not what would be
 /// built now.
-inline constexpr std::uint32_t kept_version = 5;
+inline constexpr std::uint32_t kept_version = 7;
 
 /// Is it such a file, by its first bytes?
 bool is_kept(std::span<const std::byte> bytes);
@@ -170,4 +170,4 @@ class KeptIn {
   std::size_t at_ = 0, end_ = 0;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

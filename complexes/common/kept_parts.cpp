@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 template <class Array>
@@ -145,27 +145,14 @@ void KeptParts::check(KeptIn& in, const TetMesh<Real>& mesh) {
   for (const auto& edge : mesh.pinched_edges_)
     bad |= edge.vertex[0] >= n || edge.vertex[1] >= n || edge.begin > edge.end ||
            edge.end > mesh.pinched_edge_tets_.size();
-  const auto finite = [](const Vector3<Real>& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-  };
-  for (const Vector3<Real>& p : mesh.points_) bad |= !finite(p);
+  for (const Vector3<double>& p : mesh.points_)
+    bad |= !(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
   for (const auto& squares : mesh.lengths_)
     for (const Real l : squares) bad |= !is_length(l);
-  for (const ReflexEdge<Real>& e : mesh.reflex_)
-    bad |= e.vertex[0] >= n || e.vertex[1] >= n || !is_length(e.extent) || !finite(e.solid) ||
-           !finite(e.direction) || !finite(e.end[0]) || !finite(e.end[1]) || !finite(e.normal[0]) ||
-           !finite(e.normal[1]);
-  for (const Index entry : mesh.reflex_list_)
-    bad |= entry >> ReflexEntry::edge_shift >= mesh.reflex_.size() ||
-           (entry >> ReflexEntry::slot_shift & ReflexEntry::slot_mask) > 5;
-  // The last list ends, and so all before it do.
-  in.require(mesh.reflex_list_.empty() ||
-             (mesh.reflex_list_[mesh.reflex_list_.size() - 1] & ReflexEntry::last) != 0);
+  for (const auto& crack : mesh.cracks_) bad |= crack[0] >= n || crack[1] >= n;
   const Index sentinel = static_cast<Index>(m) << TetAcross::tet_shift;
   for (Index t = 0; t < m; ++t) {
-    const TetRecord<Real>& record = mesh.tets_[t];
-    bad |= !finite(record.centre);
-    bad |= record.reflex != none && record.reflex >= mesh.reflex_list_.size();
+    const TetRecord& record = mesh.tets_[t];
     for (Index i = 0; i < 4; ++i) {
       bad |= record.corner[i] >= n;
       const Index o = record.across[i];
@@ -177,7 +164,7 @@ void KeptParts::check(KeptIn& in, const TetMesh<Real>& mesh) {
   }
   for (Index i = 0; i < 4; ++i)
     bad |= mesh.tets_[m].across[i] != sentinel || mesh.tets_[m].corner[i] >= n;
-  in.require(!bad && (mesh.tets_[m].reflex == none));
+  in.require(!bad);
 }
 
 template <class Real>
@@ -213,4 +200,4 @@ template void KeptParts::check(KeptIn&, const Wireframe<double>&);
 template void KeptParts::check(KeptIn&, const PointCloud<float>&);
 template void KeptParts::check(KeptIn&, const PointCloud<double>&);
 
-}  // namespace plexway
+}  // namespace plexway::detail

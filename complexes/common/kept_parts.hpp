@@ -11,16 +11,11 @@
 
 #include "complexes/common/kept_archive.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 template <>
 struct KeptGap<TriangleRecord<double>> {
   static constexpr std::size_t begin = 12, end = offsetof(TriangleRecord<double>, length);
-};
-template <>
-struct KeptGap<TetRecord<double>> {
-  static constexpr std::size_t begin = offsetof(TetRecord<double>, reflex) + sizeof(Index),
-                               end = sizeof(TetRecord<double>);
 };
 template <>
 struct KeptGap<WireArc<double>> {
@@ -80,13 +75,13 @@ struct KeptParts {
               complex.irregular_corners_, complex.pinched_, complex.positions_, complex.in_space_,
               complex.chord_begin_, complex.chords_);
     } else if constexpr (Kind::kind == DomainKind::solid) {
-      archive(s.vertices, s.tets, s.edges, s.faces, s.boundary_faces, s.reflex_edges,
+      archive(s.vertices, s.tets, s.edges, s.faces, s.boundary_faces, s.reflex_edges, s.notch_edges,
               s.reflex_vertices, s.pinched_vertices, s.pinched_edges, s.unreferenced_vertices,
               s.degenerate_tets, s.inverted_tets, s.first_degenerate, s.first_inverted,
               s.components, s.mean_edge, s.embedded);
-      archive(complex.tets_, complex.points_, complex.lengths_, complex.reflex_,
-              complex.reflex_list_, complex.vertex_to_inside_, complex.tet_to_inside_,
-              complex.corners_begin_, complex.corners_, complex.pinched_, complex.pinched_edges_,
+      archive(complex.tets_, complex.points_, complex.lengths_, complex.cracks_,
+              complex.vertex_to_inside_, complex.tet_to_inside_, complex.corners_begin_,
+              complex.corners_, complex.pinched_, complex.pinched_edges_,
               complex.pinched_edge_tets_);
     } else if constexpr (Kind::kind == DomainKind::wireframe) {
       archive(s.vertices, s.edges, s.components, s.unreferenced_vertices, s.zero_length_edges,
@@ -117,4 +112,4 @@ struct KeptParts {
   static void check(KeptIn& in, const PointCloud<Real>& cloud);
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 std::array<double, 3> column(const Eigen::Matrix3d& m, int i) {
@@ -46,4 +46,4 @@ LocalFrame fit_frame(std::span<const std::array<double, 3>> offsets,
           column(solver.eigenvectors(), 1), std::max(values[0], 0.0) / all};
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

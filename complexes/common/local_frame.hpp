@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The axes of a set of points: orthonormal, the direction of least spread first.
 struct LocalFrame {
@@ -19,4 +19,4 @@ struct LocalFrame {
 LocalFrame fit_frame(std::span<const std::array<double, 3>> offsets,
                      std::span<const double> weights);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The value in the middle, or the upper one of two; reorders what it is given, which is not empty.
 inline double median(std::vector<double>& values) {
@@ -13,4 +13,4 @@ inline double median(std::vector<double>& values) {
   return *middle;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

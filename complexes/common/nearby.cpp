@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <numeric>
 
-namespace plexway {
+namespace plexway::detail {
 
 namespace {
 
@@ -54,4 +54,4 @@ std::vector<std::array<Index, 2>> nearby_pairs(Points a, Points b, double tolera
   return pairs;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

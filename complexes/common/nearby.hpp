@@ -7,7 +7,7 @@
 #include <plexway/cloud/neighbours.hpp>
 #include <plexway/common/ids.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Pairs (i, j) with |a[i] - b[j]| <= tolerance: for each point of one list the nearest of the
 /// other, the first of several; ascending. Points that are not finite have no pair. Cost: n log n.
@@ -20,4 +20,4 @@ std::vector<std::array<Index, 2>> nearby_pairs(std::span<const std::array<double
 [[nodiscard]] bool may_have_near_twins(std::span<const std::array<double, 3>> points,
                                        const Neighbours& neighbours);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -8,7 +8,7 @@
 
 #include <plexway/error.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What a Real can hold of a domain whose lengths are stored in units of their mean: asked where
 /// the records are made, and where distances are. Each throws PrecisionError with the place. Ratios
@@ -90,4 +90,4 @@ class NumberRange {
   }
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

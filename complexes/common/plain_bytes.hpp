@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <vector>
 
 /// What a caller and its helper say to each other: plain values and rows of them, as they lie in
 /// memory. Both are of one build, on one machine.

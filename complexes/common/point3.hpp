@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace plexway {
+namespace plexway::detail {
 
 using Point3 = std::array<double, 3>;
 
@@ -33,4 +33,4 @@ inline Point3 some_perpendicular(const Point3& a) {
   return unit(cross(a, axis));
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

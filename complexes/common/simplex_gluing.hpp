@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <span>
 #include <sstream>
-#include <string>
 #include <vector>
 
 #include <plexway/common/ids.hpp>
@@ -15,7 +14,7 @@
 
 #include "complexes/common/fill_rows.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// For each facet (N + 1) s + i of simplices with ascending corners: the facet with the same
 /// vertices that it is glued to, or none. More than two form a cycle. Cost: n log n at worst.
@@ -74,4 +73,4 @@ inline bool differ_much(double one, double other, double longest) {
   throw InputError(text.str());
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,7 +12,7 @@
 
 #include "complexes/common/building_blocks.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// 21 bits spread to every third place.
 constexpr std::uint64_t every_third_bit(std::uint64_t q) {
@@ -195,4 +194,4 @@ std::vector<Index> breadth_first(std::span<const std::array<Index, N>> across) {
   return order;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

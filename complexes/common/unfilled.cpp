@@ -6,7 +6,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace plexway {
+namespace plexway::detail {
 
 // Those that lie in the array as a whole, so that no memory is taken beyond it.
 void prefer_large_pages([[maybe_unused]] void* start, [[maybe_unused]] std::size_t bytes) {
@@ -19,4 +19,4 @@ void prefer_large_pages([[maybe_unused]] void* start, [[maybe_unused]] std::size
 #endif
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -9,8 +9,9 @@
 #include <plexway/error.hpp>
 
 #include "complexes/common/disjoint_sets.hpp"
+#include "complexes/common/vertices_outside.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 using Pairs = std::vector<std::array<Index, 2>>;
@@ -55,8 +56,7 @@ class Joiner {
     return any;
   }
 
-  std::shared_ptr<const JoinedPieces<Real>> build(
-      const std::map<std::pair<Index, Index>, WeldOptions>& options) {
+  std::shared_ptr<const JoinedPieces<Real>> build() {
     auto joined = std::make_shared<JoinedPieces<Real>>();
     joined->vertex.resize(given_.vertex_count());
     joined->simplex.resize(given_.simplex_count());
@@ -71,23 +71,17 @@ class Joiner {
         for (Index s = 0; s < given_.pieces()[p].simplices; ++s)
           joined->simplex[given_.pieces()[p].first_simplex + s] = simplex++;
     }
-    // What is welded still, and how.
-    std::map<std::pair<Index, Index>, std::pair<Pairs, WeldOptions>> welds;
+    std::map<std::pair<Index, Index>, Pairs> welds;  // what is welded still
     for (const auto& [v, w] : given_.outer_welds()) {
-      const Index p = piece_of(v), q = piece_of(w), a = part_of[p], b = part_of[q];
+      const Index a = part_of[piece_of(v)], b = part_of[piece_of(w)];
       if (a == b) continue;
-      auto& [pairs, how] = welds[{std::min(a, b), std::max(a, b)}];
       std::array<Index, 2> pair = {joined->vertex[v] - made[a].first_vertex,
                                    joined->vertex[w] - made[b].first_vertex};
       if (a > b) std::swap(pair[0], pair[1]);
-      pairs.push_back(pair);
-      const auto asked = options.find({std::min(p, q), std::max(p, q)});
-      if (asked == options.end()) continue;
-      how.all_edges |= asked->second.all_edges;
-      how.all_vertices |= asked->second.all_vertices;
+      welds[{std::min(a, b), std::max(a, b)}].push_back(pair);
     }
-    for (auto& [parts, weld] : welds)
-      joined->domain.weld(made[parts.first], made[parts.second], weld.first, weld.second);
+    for (const auto& [parts, pairs] : welds)
+      joined->domain.weld(made[parts.first], made[parts.second], pairs);
     return joined;
   }
 
@@ -97,10 +91,7 @@ class Joiner {
     return std::get_if<Complex>(&given_.complex(given_.pieces()[piece]));
   }
   [[nodiscard]] Index piece_of(Index vertex) const {
-    const auto after = std::upper_bound(
-        given_.pieces().begin(), given_.pieces().end(), vertex,
-        [](Index v, const typename Domain::Piece& piece) { return v < piece.first_vertex; });
-    return static_cast<Index>(after - given_.pieces().begin()) - 1;
+    return detail::piece_of(given_, vertex).number;
   }
 
   // Solids are joined one after the other, each placed by a face that it shares with what is there
@@ -154,13 +145,10 @@ class Joiner {
     for (const std::size_t i : {0, 1}) {
       const Index piece = i == 0 ? p : q;
       const std::size_t side = hinge.piece[0] == piece ? 0 : 1;
-      const auto& member = given_.members()[hinge.begin[side]];
+      const auto& member = hinge.member[side];
       const Solid& solid = *get<Solid>(piece);
       auto& given = inside_to_given_[piece];
-      if (given.empty()) {
-        given.resize(solid.vertex_count());
-        for (Index v = 0; v < given.size(); ++v) given[solid.inside_vertex(v)] = v;
-      }
+      if (given.empty()) given = vertices_outside(solid);
       const auto& corners = solid.tets()[member.simplex].corner;
       inside[i] = {0, 0, 0};
       for (const Index v : corners)
@@ -252,22 +240,17 @@ class Joiner {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const Solid& solid = *get<Solid>(pieces[i]);
       pinches += solid.summary().pinched_edges + solid.summary().pinched_vertices;
-      std::vector<char> inside(solid.vertex_count(), 0);
-      for (const auto& edge : solid.reflex_edges())
-        if (is_crack(edge))
-          for (const Index v : edge.vertex) inside[v] = 1;
-      for (Index v = 0; v < inside.size(); ++v)
-        if (inside[solid.inside_vertex(v)]) cracked[vertices.of_piece[i][v]] = 1;
+      const std::vector<Index> outside = vertices_outside(solid);
+      for (const auto& crack : solid.cracks())
+        for (const Index v : crack) cracked[vertices.of_piece[i][outside[v]]] = 1;
     }
     try {
       const Solid solid(points, tets);
       if (solid.summary().pinched_edges + solid.summary().pinched_vertices > pinches) return false;
-      std::vector<char> inside(solid.vertex_count(), 0);
-      for (Index v = 0; v < inside.size(); ++v) inside[solid.inside_vertex(v)] = cracked[v];
-      for (const auto& edge : solid.reflex_edges())
-        if (is_crack(edge))
-          for (const Index v : edge.vertex)
-            if (!inside[v]) return false;
+      const std::vector<Index> outside = vertices_outside(solid);
+      for (const auto& crack : solid.cracks())
+        for (const Index v : crack)
+          if (!cracked[outside[v]]) return false;
       return true;
     } catch (const InputError&) {
       return false;
@@ -317,18 +300,10 @@ class Joiner {
 template <class Real>
 std::shared_ptr<const JoinedPieces<Real>> JoinedPieces<Real>::of(const MixedComplex<Real>& given) {
   Joiner<Real> joiner(given, given.positions_);
-  if (!joiner.find_parts()) return nullptr;
-  std::map<std::pair<Index, Index>, WeldOptions> options;
-  for (const auto& request : given.requests_) {
-    WeldOptions& asked = options[{std::min(request.piece[0], request.piece[1]),
-                                  std::max(request.piece[0], request.piece[1])}];
-    asked.all_edges |= request.options.all_edges;
-    asked.all_vertices |= request.options.all_vertices;
-  }
-  return joiner.build(options);
+  return joiner.find_parts() ? joiner.build() : nullptr;
 }
 
 template struct JoinedPieces<float>;
 template struct JoinedPieces<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

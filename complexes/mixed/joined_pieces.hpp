@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <vector>
@@ -12,7 +14,7 @@
 #include "complexes/common/point3.hpp"
 #include "complexes/solid/shared_faces.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A mixed domain as executors work on it: fewer pieces, and where each of the caller's vertices
 /// and simplices is in them. A corner that exists only once pieces are welded is then one of a
@@ -32,6 +34,16 @@ struct JoinedPieces {
 
 extern template struct JoinedPieces<float>;
 extern template struct JoinedPieces<double>;
+
+/// The piece that has a vertex of the whole or, by its first one, a simplex.
+template <class Domain, class Piece = typename Domain::Piece>
+const Piece& piece_of(const Domain& domain, Index number,
+                      Index Piece::*first = &Piece::first_vertex) {
+  const auto pieces = domain.pieces();
+  return *std::prev(
+      std::upper_bound(pieces.begin(), pieces.end(), number,
+                       [first](Index n, const Piece& piece) { return n < piece.*first; }));
+}
 
 /// Where a solid lies in the frame of another one: turned, moved, and perhaps mirrored, for what
 /// counts is lengths.
@@ -67,7 +79,7 @@ struct JoinedPart {
 /// Edges that two of them have.
 struct SurfaceSeam {
   Index part[2];
-  SharedFaces shared;
+  std::vector<SharedFace> shared;
 };
 
 /// One surface of `vertices` vertices, glued along what its parts share. Triangles keep their
@@ -77,4 +89,4 @@ template <class Real>
 TriangleMesh<Real> join_surfaces(std::size_t vertices, std::span<const JoinedPart<Real>> parts,
                                  std::span<const SurfaceSeam> seams);
 
-}  // namespace plexway
+}  // namespace plexway::detail

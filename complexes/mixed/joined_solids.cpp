@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
-namespace plexway {
+#include "complexes/common/vertices_outside.hpp"
+
+namespace plexway::detail {
 namespace {
 
 // Along the first edge, across it in the plane, and off the plane.
@@ -45,15 +47,13 @@ std::vector<Point3> places_of(const TetMesh<Real>& mesh, std::span<const Point3>
   Point3 shift = {0, 0, 0};
   double size = 0;
   for (Index v = 0; v < own.size(); ++v) {
-    const Vector3<Real>& p = mesh.points()[mesh.inside_vertex(v)];
-    own[v] = {static_cast<double>(p.x) * mesh.unit(), static_cast<double>(p.y) * mesh.unit(),
-              static_cast<double>(p.z) * mesh.unit()};
+    const auto& [x, y, z] = mesh.points()[mesh.inside_vertex(v)];
+    own[v] = {x * mesh.unit(), y * mesh.unit(), z * mesh.unit()};
     size = std::max({size, std::abs(own[v][0]), std::abs(own[v][1]), std::abs(own[v][2])});
   }
   if (given.empty()) return own;
   shift = minus(given[0], own[0]);
-  const double rounding = (sizeof(Real) == 4 ? 1e-5 : 1e-9) *
-                          (size + std::sqrt(dot(shift, shift)) * (sizeof(Real) == 4 ? 0.1 : 1));
+  const double rounding = 1e-9 * (size + std::sqrt(dot(shift, shift)));
   for (Index v = 0; v < own.size(); ++v)
     if (!(gap(minus(given[v], own[v]), shift) <= rounding)) return own;
   return {given.begin(), given.end()};
@@ -61,8 +61,7 @@ std::vector<Point3> places_of(const TetMesh<Real>& mesh, std::span<const Point3>
 
 template <class Real>
 std::vector<std::array<Index, 4>> tets_of(const TetMesh<Real>& mesh) {
-  std::vector<Index> given(mesh.vertex_count());
-  for (Index v = 0; v < given.size(); ++v) given[mesh.inside_vertex(v)] = v;
+  const std::vector<Index> given = vertices_outside(mesh);
   std::vector<std::array<Index, 4>> tets(mesh.tet_count());
   for (Index t = 0; t < tets.size(); ++t) {
     const auto [inside, turned] = mesh.inside_tet(t);
@@ -77,4 +76,4 @@ template std::vector<Point3> places_of(const TetMesh<double>&, std::span<const P
 template std::vector<std::array<Index, 4>> tets_of(const TetMesh<float>&);
 template std::vector<std::array<Index, 4>> tets_of(const TetMesh<double>&);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,7 +1,6 @@
 #include "complexes/mixed/joined_pieces.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -12,7 +11,7 @@
 #include "complexes/surface/shape_blocks.hpp"
 #include "complexes/surface/triangle_shape.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 // Edge or corner of a face: as given from as it lies inside.
@@ -140,8 +139,8 @@ TriangleMesh<Real> join_surfaces(std::size_t vertices, std::span<const JoinedPar
   DisjointSets edges(after.size());
   for (Index h = 0; h < after.size(); ++h) edges.unite(h, after[h]);
   for (const SurfaceSeam& seam : seams)
-    for (const SharedFace& face : seam.shared.faces) {
-      if (face.dimension != 1) continue;
+    for (const SharedFace& face : seam.shared) {
+      if (face.dimension() != 1) continue;
       Index one = none;
       for (const std::size_t side : {0, 1})
         for (const SharedMember& m : face.members[side]) {
@@ -169,4 +168,4 @@ template TriangleMesh<float> join_surfaces(std::size_t, std::span<const JoinedPa
 template TriangleMesh<double> join_surfaces(std::size_t, std::span<const JoinedPart<double>>,
                                             std::span<const SurfaceSeam>);
 
-}  // namespace plexway
+}  // namespace plexway::detail

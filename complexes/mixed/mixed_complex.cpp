@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <string>
 
@@ -14,27 +13,7 @@
 #include "complexes/solid/shared_faces.hpp"
 
 namespace plexway {
-namespace {
-
-// Of an edge of shared triangles, keeps the triangles of a surface that are not such themselves:
-// there the surface goes on alone. False if there are none.
-template <class Complex>
-bool keep_free(SharedFace& face, const Complex& one, const Complex& other) {
-  bool any = false;
-  for (const std::size_t side : {0, 1}) {
-    if (std::visit(
-            [](const auto& c) {
-              return requires { c.tets(); };
-            },
-            side == 0 ? one : other))
-      continue;
-    std::erase_if(face.members[side], [](const SharedMember& m) { return m.in_larger; });
-    any |= !face.members[side].empty();
-  }
-  return any && !face.members[0].empty() && !face.members[1].empty();
-}
-
-}  // namespace
+using namespace detail;
 
 template <class Real>
 Index MixedComplex<Real>::Piece::vertex(Index of_piece) const {
@@ -53,8 +32,8 @@ Index MixedComplex<Real>::Piece::simplex(Index of_piece) const {
 }
 
 template <class Real>
-typename MixedComplex<Real>::Piece MixedComplex<Real>::add(
-    Complex complex, std::span<const std::array<double, 3>> positions) {
+typename MixedComplex<Real>::Piece MixedComplex<Real>::add(Complex complex,
+                                                           const GivenPoints& positions) {
   std::visit([](const auto& c) { support_of_piece(c.kind, c.metric()).require(); }, complex);
   const std::size_t vertices = std::visit([](const auto& c) { return c.vertex_count(); }, complex);
   const std::size_t simplices = std::visit(
@@ -86,32 +65,30 @@ typename MixedComplex<Real>::Piece MixedComplex<Real>::add(
 }
 
 template <class Real>
-void MixedComplex<Real>::check(const Piece& a, const Piece& b, const WeldOptions& options) const {
+void MixedComplex<Real>::check(const Piece& a, const Piece& b) const {
   for (const Piece& p : {a, b})
     if (p.number >= pieces_.size() || pieces_[p.number].first_vertex != p.first_vertex ||
         pieces_[p.number].vertices != p.vertices)
       throw UsageError("this piece is not of this domain");
   if (a.number == b.number) throw UsageError("a piece cannot be welded to itself");
-  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
-    throw UsageError("the tolerance of a weld must be a number >= 0");
 }
 
 template <class Real>
 std::size_t MixedComplex<Real>::weld(const Piece& a, const Piece& b, const WeldOptions& options) {
-  check(a, b, options);
+  check(a, b);
+  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance))
+    throw UsageError("the tolerance of a weld must be a number >= 0");
   for (const Piece& p : {a, b})
     if (positions_[p.number].empty())
       throw UsageError("piece " + std::to_string(p.number) +
                        " came without positions: weld it by pairs of vertices");
-  return weld(a, b, nearby_pairs(positions_[a.number], positions_[b.number], options.tolerance),
-              options);
+  return weld(a, b, nearby_pairs(positions_[a.number], positions_[b.number], options.tolerance));
 }
 
 template <class Real>
 std::size_t MixedComplex<Real>::weld(const Piece& a, const Piece& b,
-                                     std::span<const std::array<Index, 2>> pairs,
-                                     const WeldOptions& options) {
-  check(a, b, options);
+                                     std::span<const std::array<Index, 2>> pairs) {
+  check(a, b);
   if (pairs.empty()) return 0;
   const Complex &one = complexes_[a.number], &other = complexes_[b.number];
   std::vector<std::array<Index, 2>> inside;
@@ -133,27 +110,24 @@ std::size_t MixedComplex<Real>::weld(const Piece& a, const Piece& b,
             "a vertex would be welded to more than 16 others: is the tolerance larger than edges?");
   }
 
-  SharedFaces shared = std::visit(
+  const std::vector<SharedFace> shared = std::visit(
       [&](const auto& c, const auto& d) { return find_shared_faces(c, d, inside); }, one, other);
-  for (SharedFace& face : shared.faces) {
-    if (face.contained && !options.all_edges && !keep_free(face, one, other)) continue;
-    Hinge hinge{face.dimension, {a.number, b.number}, {}, {}};
-    for (const std::size_t side : {0, 1}) {
-      hinge.begin[side] = static_cast<Index>(members_.size());
-      for (const SharedMember& m : face.members[side]) members_.push_back({m.simplex, m.corner});
-      hinge.end[side] = static_cast<Index>(members_.size());
-    }
-    hinges_.push_back(hinge);
-    ++summary_.hinges[face.dimension];
+  std::vector<char> alone(inside.size(), 1);  // in no shared edge
+  for (const SharedFace& face : shared) {
+    for (const Index p : face.pairs)
+      if (p != none) alone[p] = 0;
+    if (face.inner) continue;
+    const SharedMember &m = face.members[0][0], &n = face.members[1][0];
+    hinges_.push_back(
+        {face.dimension(), {a.number, b.number}, {{m.simplex, m.corner}, {n.simplex, n.corner}}});
+    ++summary_.hinges[face.dimension()];
   }
   for (std::size_t i = 0; i < inside.size(); ++i) {
-    const bool hinge = !shared.vertex_contained[i] || options.all_vertices;
-    welds_.push_back({{a.number, b.number}, {inside[i][0], inside[i][1]}, hinge});
-    summary_.hinges[0] += hinge;
+    welds_.push_back({{a.number, b.number}, {inside[i][0], inside[i][1]}});
+    summary_.hinges[0] += alone[i] != 0;
   }
   is_joined_ = false;
   space_ = {};
-  requests_.push_back({{a.number, b.number}, options});
   for (const auto& [v, w] : pairs) outer_welds_.push_back({a.first_vertex + v, b.first_vertex + w});
   summary_.welded_vertices += inside.size();
   return inside.size();
@@ -172,8 +146,7 @@ std::shared_ptr<const JoinedPieces<Real>> MixedComplex<Real>::joined() const {
 
 template <class Real>
 std::size_t MixedComplex<Real>::bytes() const {
-  std::size_t sum = hinges_.capacity() * sizeof(Hinge) + members_.capacity() * sizeof(Member) +
-                    welds_.capacity() * sizeof(Weld) +
+  std::size_t sum = hinges_.capacity() * sizeof(Hinge) + welds_.capacity() * sizeof(Weld) +
                     outer_welds_.capacity() * sizeof(outer_welds_[0]);
   for (const Complex& c : complexes_)
     sum += std::visit([](const auto& complex) { return complex.bytes(); }, c);

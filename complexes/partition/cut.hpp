@@ -10,7 +10,7 @@
 
 #include "complexes/partition/partition.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// One piece of a domain: its own simplices, and *ghosts*, those of other pieces beside them. In a
 /// piece simplices have numbers of their own: first its own that are ghosts elsewhere, then its
@@ -140,4 +140,4 @@ template <class Neighbours>
   return result;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -4,7 +4,7 @@
 #include <deque>
 #include <utility>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Which pieces are whose: they are dealt to processes in turn. One in the order of a cut lies
 /// beside the one before, so each process has some of every region, and each has work wherever the
@@ -57,4 +57,4 @@ class OurPieces {
   std::deque<Piece> pieces_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

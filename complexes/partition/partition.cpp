@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 // So many simplices that follow each other stay together until cuts are smoothed: domains number
@@ -71,4 +71,4 @@ void leave_out_empty(Partition& partition) {
   partition.pieces = count;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

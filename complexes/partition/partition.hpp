@@ -10,7 +10,7 @@
 
 #include <plexway/common/ids.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A domain's simplices in compact parts of about one size. Depends on the domain alone.
 struct Partition {
@@ -143,4 +143,4 @@ template <class Neighbours>
   return found;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

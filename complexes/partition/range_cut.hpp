@@ -8,7 +8,7 @@
 
 #include "complexes/partition/cut.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A domain whose simplices are numbered from neighbour to neighbour, cut into ranges of these
 /// numbers: nothing is numbered anew, nothing copied.
@@ -63,4 +63,4 @@ template <class Neighbours>
   return result;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Makes N equations diagonal, by rows with the largest pivots first; the right sides are the last
 /// column. Unknown i is then m[i][N] / m[i][i], which is no number if the rows depend on each
@@ -22,4 +22,4 @@ void eliminate(double (&m)[N][N + 1]) {
   }
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

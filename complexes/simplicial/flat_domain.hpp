@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -12,7 +11,7 @@
 
 #include "complexes/common/box_tree.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Points of R^N, few operations, any N.
 template <std::size_t N>
@@ -121,4 +120,4 @@ struct FlatDomain {
   }
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -9,7 +9,7 @@
 
 #include <plexway/common/ids.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Coordinates of a complex of dimension N, N a vertex, as far from each other as those given,
 /// `axes` a vertex; nothing where it does not lie in one flat of that dimension. What is off that
@@ -69,4 +69,4 @@ std::optional<std::vector<double>> laid_out(std::span<const double> positions, s
   return laid;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

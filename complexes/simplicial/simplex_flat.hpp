@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <span>
@@ -17,7 +16,7 @@
 #include "complexes/simplicial/elimination.hpp"
 #include "complexes/simplicial/flat_domain.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Finds whether a complex lies flat in R^N, and where paths may bend in it.
 ///
@@ -492,4 +491,4 @@ class FlatDomainBuilder {
   std::vector<Arc> arcs_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

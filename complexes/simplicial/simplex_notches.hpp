@@ -9,7 +9,7 @@
 
 #include <plexway/simplicial/simplicial_complex.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The angles between the facets of a simplex, [i][j] between those opposite corners i and j; 0
 /// where it has no volume. By the inner products of the gradients of its barycentric coordinates.
@@ -98,4 +98,4 @@ std::size_t count_notches(const SimplicialComplex<Real, N>& complex) {
   return notches;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,19 +6,19 @@
 
 #include <plexway/simplicial/detail/simplex_record.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
-enum class SimplexShape { flat, degenerate, violated };
+enum class FlatVerdict { flat, degenerate, violated };
 
 /// Is there a Euclidean simplex with these lengths? By elimination with pivots on the inner
 /// products of the edges from corner 0, which must be positive (semi)definite (Schoenberg 1935).
 /// Rounding of the lengths is forgiven.
 template <int N>
-SimplexShape simplex_shape(const std::array<double, N*(N + 1) / 2>& lengths) {
+FlatVerdict simplex_shape(const std::array<double, N*(N + 1) / 2>& lengths) {
   using Layout = SimplexLayout<N>;
   double longest = 0;
   for (const double l : lengths) longest = std::fmax(longest, l);
-  if (longest == 0) return SimplexShape::degenerate;
+  if (longest == 0) return FlatVerdict::degenerate;
   const auto square = [&](std::size_t a, std::size_t b) {
     const double l = lengths[Layout::edge(a, b)] / longest;
     return l * l;
@@ -40,16 +40,16 @@ SimplexShape simplex_shape(const std::array<double, N*(N + 1) / 2>& lengths) {
       if (pivot == N || inner[a][a] > inner[pivot][pivot]) pivot = a;
     }
     constexpr double rounding = 1e-12;
-    if (least < -rounding) return SimplexShape::violated;
+    if (least < -rounding) return FlatVerdict::violated;
     if (inner[pivot][pivot] <= rounding)
-      return off > 10 * rounding ? SimplexShape::violated : SimplexShape::degenerate;
+      return off > 10 * rounding ? FlatVerdict::violated : FlatVerdict::degenerate;
     used[pivot] = true;
     for (std::size_t a = 0; a < N; ++a)
       for (std::size_t b = 0; b < N; ++b)
         if (!used[a] && !used[b])
           inner[a][b] -= inner[a][pivot] * inner[pivot][b] / inner[pivot][pivot];
   }
-  return SimplexShape::flat;
+  return FlatVerdict::flat;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -21,6 +19,7 @@
 #include "complexes/simplicial/simplex_shape.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 std::string named(std::size_t simplex) { return "simplex " + std::to_string(simplex); }
@@ -272,9 +271,9 @@ void SimplicialComplex<Real, N>::assemble(std::size_t vertices, std::span<const 
       summary_.facets += last;
       summary_.fan_facets += last;
     }
-    const SimplexShape shape = simplex_shape<N>(lengths[s]);
-    summary_.degenerate_simplices += shape == SimplexShape::degenerate;
-    summary_.violated_simplices += shape == SimplexShape::violated;
+    const FlatVerdict shape = simplex_shape<N>(lengths[s]);
+    summary_.degenerate_simplices += shape == FlatVerdict::degenerate;
+    summary_.violated_simplices += shape == FlatVerdict::violated;
   }
   find_stars(vertices);
 }

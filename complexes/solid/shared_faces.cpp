@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 struct Record {
@@ -82,53 +82,35 @@ void match(const std::vector<Record>& one, const std::vector<Record>& other, Fou
 }  // namespace
 
 template <class A, class B>
-SharedFaces find_shared_faces(const A& a, const B& b, std::span<const std::array<Index, 2>> pairs) {
-  SharedFaces shared;
-  shared.vertex_contained.assign(pairs.size(), 0);
+std::vector<SharedFace> find_shared_faces(const A& a, const B& b,
+                                          std::span<const std::array<Index, 2>> pairs) {
+  std::vector<SharedFace> shared;
   constexpr bool wires = requires(const A& x) { x.arcs(); }
   || requires(const B& x) { x.arcs(); };
   if constexpr (!wires) {
     std::vector<Record> edges[2], faces[2];
     collect_all(a, 0, pairs, edges[0], faces[0]);
     collect_all(b, 1, pairs, edges[1], faces[1]);
-    std::vector<std::array<Index, 2>> contained;        // edges of shared triangles
-    std::vector<std::array<Index, 3>> contained_in[2];  // and the simplices that have those
-    const auto add = [&](std::uint8_t dimension, bool within, auto one, auto other) {
-      shared.faces.push_back({dimension, within, {std::move(one), std::move(other)}});
-    };
+    std::vector<std::array<Index, 2>> inner;  // edges of shared triangles
     match(faces[0], faces[1], [&](const auto& key, auto one, auto other) {
-      for (const Index p : key) shared.vertex_contained[p] = 1;
-      contained.insert(contained.end(), {{key[0], key[1]}, {key[0], key[2]}, {key[1], key[2]}});
-      for (const auto* members : {&one, &other})
-        for (const SharedMember& m : *members)
-          for (const auto& [i, j] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)})
-            contained_in[members == &other].push_back(
-                {key[static_cast<std::size_t>(i)], key[static_cast<std::size_t>(j)], m.simplex});
-      add(2, false, std::move(one), std::move(other));
+      inner.insert(inner.end(), {{key[0], key[1]}, {key[0], key[2]}, {key[1], key[2]}});
+      shared.push_back({false, key, {std::move(one), std::move(other)}});
     });
-    std::sort(contained.begin(), contained.end());
-    for (auto& list : contained_in) std::sort(list.begin(), list.end());
+    std::sort(inner.begin(), inner.end());
     match(edges[0], edges[1], [&](const auto& key, auto one, auto other) {
-      shared.vertex_contained[key[0]] = shared.vertex_contained[key[1]] = 1;
-      const bool within = std::binary_search(contained.begin(), contained.end(),
-                                             std::array<Index, 2>{key[0], key[1]});
-      for (auto* members : {&one, &other})
-        for (SharedMember& m : *members) {
-          const auto& list = contained_in[members == &other];
-          m.in_larger = std::binary_search(list.begin(), list.end(),
-                                           std::array<Index, 3>{key[0], key[1], m.simplex});
-        }
-      add(1, within, std::move(one), std::move(other));
+      const bool is_inner =
+          std::binary_search(inner.begin(), inner.end(), std::array<Index, 2>{key[0], key[1]});
+      shared.push_back({is_inner, key, {std::move(one), std::move(other)}});
     });
   }
   return shared;
 }
 
-#define PLEXWAY_SHARED(A, B)                                                     \
-  template SharedFaces find_shared_faces(const A<float>&, const B<float>&,       \
-                                         std::span<const std::array<Index, 2>>); \
-  template SharedFaces find_shared_faces(const A<double>&, const B<double>&,     \
-                                         std::span<const std::array<Index, 2>>);
+#define PLEXWAY_SHARED(A, B)                                                                 \
+  template std::vector<SharedFace> find_shared_faces(const A<float>&, const B<float>&,       \
+                                                     std::span<const std::array<Index, 2>>); \
+  template std::vector<SharedFace> find_shared_faces(const A<double>&, const B<double>&,     \
+                                                     std::span<const std::array<Index, 2>>);
 PLEXWAY_SHARED(TriangleMesh, TriangleMesh)
 PLEXWAY_SHARED(TriangleMesh, TetMesh)
 PLEXWAY_SHARED(TriangleMesh, Wireframe)
@@ -140,4 +122,4 @@ PLEXWAY_SHARED(Wireframe, TetMesh)
 PLEXWAY_SHARED(Wireframe, Wireframe)
 #undef PLEXWAY_SHARED
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -13,32 +13,29 @@
 #include <plexway/surface/triangle_mesh.hpp>
 #include <plexway/wireframe/wireframe.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A simplex at a shared face, and which of its corners are the face's vertices.
 struct SharedMember {
   Index simplex;
   std::array<std::uint8_t, 3> corner;
-  bool in_larger = false;  ///< of an edge: this simplex has a shared triangle there
 };
 
 /// An edge or a triangle that two welded complexes both have, with the simplices at it.
 struct SharedFace {
-  std::uint8_t dimension;  ///< 1 or 2
-  bool contained;          ///< an edge of a shared triangle
+  bool inner;                  ///< an edge of a shared triangle
+  std::array<Index, 3> pairs;  ///< the places of its vertices, the last none for an edge
   std::vector<SharedMember> members[2];
+
+  [[nodiscard]] std::uint8_t dimension() const { return pairs[2] == none ? 1 : 2; }
 };
 
-struct SharedFaces {
-  std::vector<SharedFace> faces;
-  std::vector<char> vertex_contained;  ///< one a pair: part of a shared edge or triangle
-};
-
-/// `pairs` are the welded vertices (of a, of b), numbers inside, sorted. A wireframe keeps what it
-/// knows at its vertices, so that with one of them only vertices are shared.
-/// Cost: linear in the simplices, n log n in what is shared.
+/// Triangles first. `pairs` are the welded vertices (of a, of b), numbers inside, sorted. A
+/// wireframe keeps what it knows at its vertices, so that with one of them only vertices are
+/// shared. Cost: linear in the simplices, n log n in what is shared.
 template <class A, class B>
-SharedFaces find_shared_faces(const A& a, const B& b, std::span<const std::array<Index, 2>> pairs);
+std::vector<SharedFace> find_shared_faces(const A& a, const B& b,
+                                          std::span<const std::array<Index, 2>> pairs);
 
 /// The faces that one tetrahedron alone has, anticlockwise as seen from outside, ordered by their
 /// vertices. `corner(t, i)` is a vertex of tetrahedron t; `inverted(t)` if its corners are in
@@ -69,4 +66,4 @@ std::vector<std::array<Index, 3>> outer_faces(std::size_t tets, const Corner& co
   return outer;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

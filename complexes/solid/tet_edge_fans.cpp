@@ -5,7 +5,7 @@
 #include <numbers>
 #include <tuple>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 // A path may bend at an edge with more than pi of solid around it (2 pi inside a metric that is not
@@ -23,15 +23,6 @@ Vector3<double> inward_normal(const TetPoints& p, Index face) {
   const auto n = cross(p[c] - p[a], p[b] - p[a]);
   const double length = norm(n);
   return length > 0 ? 1 / length * n : n;
-}
-
-/// Within a face, from its edge ij and square to that, unit.
-Vector3<double> into_face(const TetPoints& p, Index face, Index i, Index j) {
-  const auto edge = p[j] - p[i], side = p[6 - face - i - j] - p[i];
-  const double square = dot(edge, edge);
-  const auto w = square > 0 ? side - dot(side, edge) / square * edge : side;
-  const double length = norm(w);
-  return length > 0 ? 1 / length * w : w;
 }
 
 }  // namespace
@@ -80,12 +71,11 @@ bool TetEdgeFans::look_at_boundary(Index v) {
   for (const Index w : ends_) degree_[w] = 0;
   std::sort(starts_.begin(), starts_.end(),
             [](const Start& a, const Start& b) { return a.end < b.end; });
-  const std::size_t reflex = found_.reflex.size(), entries = found_.entries.size();
+  const std::size_t reflex = found_.reflex.size();
   for (std::size_t n = 0; clear && n < starts_.size(); ++n)
     tets -= walk(starts_[n], v, starts_[n].end);
   if (clear && tets == 0) return true;
   found_.reflex.resize(reflex);
-  found_.entries.resize(entries);
   return false;
 }
 
@@ -180,9 +170,11 @@ std::size_t TetEdgeFans::walk(const Start& start, Index a, Index b) {
   fan_ends_.push_back(from);
   fan_ends_.push_back(to);
   if (!is_reflex(a, b)) return fan_.size();
-  add_reflex(a, b, from, to);
+  TetTopology::Reflex& edge = found_.reflex.emplace_back();
+  edge.vertex = {a, b};
+  edge.crack = embedded_ && is_crack(from, to);
   if (!embedded_)
-    for (const Index in : fan_) found_.reflex.back().angle += dihedral_at(in, a, b);
+    for (const Index in : fan_) edge.angle += dihedral_at(in, a, b);
   return fan_.size();
 }
 
@@ -226,30 +218,13 @@ double TetEdgeFans::dihedral_at(Index t, Index a, Index b) const {
 void TetEdgeFans::closed(Index a, Index b, std::span<const Index> around) {
   double angle = 0;
   for (const Index t : around) angle += dihedral_at(t, a, b);
-  if (angle > 2 * std::numbers::pi + angle_tolerance) {
-    found_.reflex.emplace_back().vertex = {a, b};
-  }
+  if (angle > 2 * std::numbers::pi + angle_tolerance) found_.reflex.emplace_back().vertex = {a, b};
 }
 
-void TetEdgeFans::add_reflex(Index a, Index b, Index from, Index to) {
-  const Index t = from / 4, k = from % 4, u = to / 4, l = to % 4;
-  const Index edge = static_cast<Index>(found_.reflex.size());
-  const TetPoints p = solid_.points(t), q = solid_.points(u);
-  const Index i = corner_of(solid_.corner[t], a), j = corner_of(solid_.corner[t], b);
-  const Vector3<double> normal[2] = {inward_normal(p, k), inward_normal(q, l)};
-  // At the end of a crack, whose faces lie on each other, normals leave nothing.
-  constexpr double closed_crack = 1e-3;
-  Vector3<double> solid = normal[0] + normal[1];
-  if (dot(solid, solid) < closed_crack * closed_crack)
-    solid = -0.5 * (into_face(p, k, i, j) + into_face(q, l, corner_of(solid_.corner[u], a),
-                                                      corner_of(solid_.corner[u], b)));
-  found_.reflex.push_back({{p[i], p[j]}, {normal[0], normal[1]}, {a, b}, solid});
-  for (const Index tet : fan_) {
-    const auto& corner = solid_.corner[tet];
-    const Index slot = tet_edge(corner_of(corner, a), corner_of(corner, b));
-    found_.entries.push_back(
-        {tet, edge << ReflexEntry::edge_shift | slot << ReflexEntry::slot_shift});
-  }
+// Do two boundary faces, 4 t + k, at one edge lie on each other?
+bool TetEdgeFans::is_crack(Index from, Index to) const {
+  const auto normal = [&](Index face) { return inward_normal(solid_.points(face / 4), face % 4); };
+  return dot(normal(from), normal(to)) < -1 + 1e-6;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -4,14 +4,13 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <plexway/common/ids.hpp>
 
 #include "complexes/solid/tet_edges.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What is known of a solid before its edges are looked at.
 struct TetSolid {
@@ -44,8 +43,7 @@ class TetEdgeFans {
  public:
   /// What was found, by the ends of edges in ascending order.
   struct Found {
-    std::vector<TetTopology::Reflex> reflex;        ///< without a frame their vertices alone
-    std::vector<std::pair<Index, Index>> entries;   ///< tetrahedron, ReflexEntry of `reflex`
+    std::vector<TetTopology::Reflex> reflex;
     std::vector<TetTopology::PinchedEdge> pinched;  ///< into `pinched_tets`
     std::vector<Index> pinched_tets;
   };
@@ -69,7 +67,7 @@ class TetEdgeFans {
   [[nodiscard]] bool is_reflex(Index a, Index b) const;
   [[nodiscard]] double dihedral_at(Index t, Index a, Index b) const;
   void closed(Index a, Index b, std::span<const Index> around);
-  void add_reflex(Index a, Index b, Index from, Index to);
+  [[nodiscard]] bool is_crack(Index from, Index to) const;
 
   const TetSolid& solid_;
   std::vector<Index> degree_;  // tetrahedra around the edge to each vertex
@@ -82,4 +80,4 @@ class TetEdgeFans {
   Found found_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

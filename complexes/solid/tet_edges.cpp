@@ -8,7 +8,7 @@
 #include "complexes/common/disjoint_sets.hpp"
 #include "complexes/solid/tet_edge_fans.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 using SolidCorners = TetSolid::Corners;
@@ -27,9 +27,6 @@ class Finder {
     mark_boundary();
     solid_.on_boundary = on_boundary_;
     look_around_edges();
-    found_.reflex_edges = found_.reflex.size();
-    if (solid_.places.embedded()) merge_straight();
-    list_by_tet();
     find_vertices();
     return std::move(found_);
   }
@@ -55,9 +52,7 @@ class Finder {
           TetEdgeFans(solid_).look(static_cast<Index>(first), static_cast<Index>(last));
     });
     for (const TetEdgeFans::Found& own : parts) {
-      const Index edges = static_cast<Index>(found_.reflex.size()) << ReflexEntry::edge_shift,
-                  tets = static_cast<Index>(found_.pinched_edge_tets.size());
-      for (const auto& [tet, packed] : own.entries) entries_.emplace_back(tet, packed + edges);
+      const auto tets = static_cast<Index>(found_.pinched_edge_tets.size());
       for (const auto& e : own.pinched)
         found_.pinched_edges.push_back({e.vertex, e.begin + tets, e.end + tets});
       for (const auto& e : own.reflex)
@@ -65,71 +60,6 @@ class Finder {
       found_.reflex.insert(found_.reflex.end(), own.reflex.begin(), own.reflex.end());
       found_.pinched_edge_tets.insert(found_.pinched_edge_tets.end(), own.pinched_tets.begin(),
                                       own.pinched_tets.end());
-    }
-  }
-
-  // Edges in a straight row, between the same planes, are one to a path.
-  void merge_straight() {
-    std::vector<std::pair<Index, Index>> ends;
-    for (Index e = 0; e < found_.reflex.size(); ++e)
-      for (const Index v : found_.reflex[e].vertex) ends.push_back({v, e});
-    std::sort(ends.begin(), ends.end());
-    DisjointSets rows(found_.reflex.size());
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-      const Index v = ends[i].first;
-      if (ends[i + 1].first != v || (i > 0 && ends[i - 1].first == v) ||
-          (i + 2 < ends.size() && ends[i + 2].first == v))
-        continue;
-      const TetTopology::Reflex &a = found_.reflex[ends[i].second],
-                                &b = found_.reflex[ends[i + 1].second];
-      if (in_a_row(a, b, v)) rows.unite(ends[i].second, ends[i + 1].second);
-    }
-    std::vector<Index> merged(found_.reflex.size());
-    std::vector<TetTopology::Reflex> kept;
-    for (Index e = 0; e < found_.reflex.size(); ++e) {
-      if (rows.find(e) == e) {  // roots are the lowest of their row
-        merged[e] = static_cast<Index>(kept.size());
-        kept.push_back(found_.reflex[e]);
-        continue;
-      }
-      merged[e] = merged[rows.find(e)];
-      TetTopology::Reflex& row = kept[merged[e]];
-      const TetTopology::Reflex& edge = found_.reflex[e];
-      const auto u = row.end[1] - row.end[0];
-      for (std::size_t i = 0; i < 2; ++i) {
-        const double along = dot(edge.end[i] - row.end[0], u) / dot(u, u);
-        if (along >= 0 && along <= 1) continue;
-        const std::size_t side = along < 0 ? 0 : 1;
-        row.end[side] = edge.end[i], row.vertex[side] = edge.vertex[i];
-      }
-    }
-    found_.reflex = std::move(kept);
-    for (auto& [tet, packed] : entries_)
-      packed = merged[packed >> ReflexEntry::edge_shift] << ReflexEntry::edge_shift |
-               (packed & ((1u << ReflexEntry::edge_shift) - 1));
-  }
-
-  static bool in_a_row(const TetTopology::Reflex& a, const TetTopology::Reflex& b, Index v) {
-    const std::size_t i = a.vertex[0] == v ? 0 : 1, j = b.vertex[0] == v ? 0 : 1;
-    const auto u = a.end[i] - a.end[1 - i], w = b.end[1 - j] - b.end[j];
-    constexpr double near = 1e-6;
-    if (!(dot(u, w) > 0) || !(norm(cross(u, w)) < near * dot(u, w))) return false;
-    if (!(dot(a.solid, b.solid) > 0)) return false;  // cracks on either side of a line
-    const auto same = [](const Vector3<double>& m, const Vector3<double>& n) {
-      return norm(m - n) < near;
-    };
-    return (same(a.normal[0], b.normal[0]) && same(a.normal[1], b.normal[1])) ||
-           (same(a.normal[0], b.normal[1]) && same(a.normal[1], b.normal[0]));
-  }
-
-  void list_by_tet() {
-    std::sort(entries_.begin(), entries_.end());
-    found_.first_reflex.assign(solid_.corner.size(), none);
-    for (std::size_t e = 0; e < entries_.size(); ++e) {
-      const auto [tet, packed] = entries_[e];
-      if (e == 0 || entries_[e - 1].first != tet) found_.first_reflex[tet] = static_cast<Index>(e);
-      const bool last = e + 1 == entries_.size() || entries_[e + 1].first != tet;
-      found_.reflex_list.push_back(packed | (last ? ReflexEntry::last : 0));
     }
   }
 
@@ -227,7 +157,6 @@ class Finder {
   std::size_t vertices_;
   int threads_;
   std::vector<char> on_reflex_, on_boundary_;
-  std::vector<std::pair<Index, Index>> entries_;
   TetTopology found_;
 };
 
@@ -238,4 +167,4 @@ TetTopology find_tet_topology(SolidCorners corner, SolidCorners across, const Te
   return Finder(corner, across, corners, places, threads).find();
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

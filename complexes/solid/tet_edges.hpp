@@ -10,7 +10,7 @@
 
 #include "complexes/solid/tet_gluing.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Four corners of a tetrahedron in space.
 using TetPoints = std::array<Vector3<double>, 4>;
@@ -21,16 +21,12 @@ struct TetTopology {
     std::array<Index, 2> vertex;
     Index begin, end;  ///< in pinched_edge_tets
   };
-  std::size_t reflex_edges = 0;
   struct Reflex {
-    std::array<Vector3<double>, 2> end, normal;
     std::array<Index, 2> vertex;
-    Vector3<double> solid;  ///< away from the edge into the solid, between both faces
-    double angle = 0;       ///< of solid around; found where tetrahedra have a pose each
+    bool crack = false;  ///< do both faces at it lie on each other?
+    double angle = 0;    ///< of solid around; found where tetrahedra have a pose each
   };
-  std::vector<Reflex> reflex;       ///< those in a straight row are one
-  std::vector<Index> reflex_list;   ///< ReflexEntry, by tetrahedron
-  std::vector<Index> first_reflex;  ///< of each tetrahedron, or none
+  std::vector<Reflex> reflex;
   std::vector<PinchedEdge> pinched_edges;
   std::vector<Index> pinched_edge_tets;
   std::vector<Index> pinched_vertices;
@@ -56,4 +52,4 @@ TetTopology find_tet_topology(std::span<const std::array<Index, 4>> corner,
                               std::span<const std::array<Index, 4>> across,
                               const TetCorners& corners, const TetPlaces& places, int threads);
 
-}  // namespace plexway
+}  // namespace plexway::detail

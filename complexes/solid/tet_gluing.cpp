@@ -14,7 +14,7 @@
 #include "complexes/common/building_blocks.hpp"
 #include "complexes/common/disjoint_sets.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 TetCorners corners_of_vertices(std::size_t vertices, Tets tets, std::span<const Index> first_use,
                                int threads) {
@@ -348,4 +348,4 @@ std::vector<char> orient_tets(Tets tets, const TetGluing& across,
   return turn;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

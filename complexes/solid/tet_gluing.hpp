@@ -10,7 +10,7 @@
 #include <plexway/common/detail/unfilled.hpp>
 #include <plexway/common/ids.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Tetrahedra by their vertices.
 using Tets = std::span<const std::array<Index, 4>>;
@@ -64,4 +64,4 @@ GluedTets glue_tets(std::size_t vertices, Tets tets, int threads);
 std::vector<char> orient_tets(Tets tets, const TetGluing& across,
                               std::span<const signed char> volume, int threads);
 
-}  // namespace plexway
+}  // namespace plexway::detail

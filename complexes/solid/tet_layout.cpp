@@ -6,7 +6,7 @@
 
 #include "complexes/common/building_blocks.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 TetLayout::TetLayout(std::size_t vertices, Tets tets, std::vector<Index> order,
                      std::span<const char> turn, int threads)
@@ -57,4 +57,4 @@ void TetLayout::take_gluing(GluedTets callers, int threads) {
   glued.across = std::move(across);
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -11,7 +11,7 @@
 
 #include "complexes/solid/tet_gluing.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The tetrahedra of a solid as they lie in memory: numbered inside, some turned over, vertices
 /// named by their first use, and glued.
@@ -44,4 +44,4 @@ struct TetLayout {
   }
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

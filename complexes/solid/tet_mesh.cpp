@@ -18,6 +18,7 @@
 #include "complexes/solid/tet_layout.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 // Six times the volume, over the product of the three edges from a corner: below this, none.
@@ -138,8 +139,7 @@ void check_edges(Tets tets, std::span<const std::array<double, 6>> lengths,
 }  // namespace
 
 template <class Real>
-TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
-                       std::span<const std::array<Index, 4>> tets, int threads) {
+TetMesh<Real>::TetMesh(const GivenPoints& positions, const GivenSimplices<4>& tets, int threads) {
   check_tets(positions.size(), tets, threads);
   double extent = 1, reach = 0;
   auto scaled = centred(positions, tets, extent, reach, threads);
@@ -214,8 +214,8 @@ TetMesh<Real>::TetMesh(std::span<const std::array<double, 3>> positions,
 }
 
 template <class Real>
-TetMesh<Real>::TetMesh(std::size_t vertices, std::span<const std::array<Index, 4>> tets,
-                       std::span<const std::array<double, 6>> lengths, int threads) {
+TetMesh<Real>::TetMesh(std::size_t vertices, const GivenSimplices<4>& tets,
+                       const Given<std::array<double, 6>>& lengths, int threads) {
   check_tets(vertices, tets, threads);
   if (lengths.size() != tets.size())
     throw InputError(std::to_string(tets.size()) + " tets but lengths for " +
@@ -283,7 +283,7 @@ void TetMesh<Real>::assemble(TetLayout&& layout, std::span<const std::array<doub
   corners_begin_ = std::move(rows.begin);
   corners_ = std::move(rows.corner);
   summary_.edges = layout.glued.edges;
-  summary_.reflex_edges = topology.reflex_edges;
+  summary_.reflex_edges = topology.reflex.size();
   summary_.notch_edges = static_cast<std::size_t>(std::count_if(
       topology.reflex.begin(), topology.reflex.end(),
       [](const auto& edge) { return edge.angle > std::numbers::pi + SolidSummary::notch; }));
@@ -298,44 +298,26 @@ void TetMesh<Real>::assemble(TetLayout&& layout, std::span<const std::array<doub
     pinched_edges_.own().push_back({{e.vertex[0], e.vertex[1]}, e.begin, e.end});
   pinched_edge_tets_ = std::move(topology.pinched_edge_tets);
 
-  const auto rounded = [](const Vector3<double>& p) {
-    return Vector3<Real>{static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)};
-  };
   constexpr auto packed = [](Index tet, Index face) { return tet << TetAcross::tet_shift | face; };
   const Index sentinel = packed(static_cast<Index>(m), 0);
   auto& records = tets_.own();
   records.resize(m + 1);
   over_blocks(m, threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t t = first; t < last; ++t) {
-      Vector3<double> centre = {0, 0, 0};
-      if (summary_.embedded)
-        for (const Index v : corner[t]) centre = centre + 0.25 * at[v];
       const auto side = [&](std::size_t i) { return over[t][i] == none ? sentinel : over[t][i]; };
       records[t] = {{side(0), side(1), side(2), side(3)},
-                    {corner[t][0], corner[t][1], corner[t][2], corner[t][3]},
-                    rounded(centre),
-                    summary_.embedded ? topology.first_reflex[t] : none};
+                    {corner[t][0], corner[t][1], corner[t][2], corner[t][3]}};
     }
   });
-  records[m] = {{sentinel, sentinel, sentinel, sentinel}, {0, 0, 0, 0}, {0, 0, 0}, none};
+  records[m] = {{sentinel, sentinel, sentinel, sentinel}, {0, 0, 0, 0}};
 
   tet_to_inside_ = std::move(layout.tet_to_inside);
   vertex_to_inside_ = std::move(layout.vertex_to_inside);
 
   if (summary_.embedded) {
-    points_.own().reserve(vertices);
-    for (const Vector3<double>& p : at) points_.own().push_back(rounded(p));
-    reflex_list_ = std::move(topology.reflex_list);
-    for (const auto& e : topology.reflex) {
-      const auto along = e.end[1] - e.end[0];
-      const double length = norm(along);
-      reflex_.own().push_back({rounded(e.solid),
-                               rounded(length > 0 ? 1 / length * along : along),
-                               {rounded(e.end[0]), rounded(e.end[1])},
-                               static_cast<Real>(length),
-                               {rounded(e.normal[0]), rounded(e.normal[1])},
-                               {e.vertex[0], e.vertex[1]}});
-    }
+    points_ = std::move(at);
+    for (const auto& e : topology.reflex)
+      if (e.crack) cracks_.own().push_back(e.vertex);
   } else {
     std::vector<std::array<Real, 6>>& squares = lengths_.own();
     squares.resize(m + 1);
@@ -356,7 +338,7 @@ void TetMesh<Real>::assemble(TetLayout&& layout, std::span<const std::array<doub
 template <class Real>
 std::size_t TetMesh<Real>::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return sizeof(*this) + of(tets_) + of(points_) + of(lengths_) + of(reflex_) + of(reflex_list_) +
+  return sizeof(*this) + of(tets_) + of(points_) + of(lengths_) + of(cracks_) +
          of(vertex_to_inside_) + of(tet_to_inside_) + of(corners_begin_) + of(corners_) +
          of(pinched_) + of(pinched_edges_) + of(pinched_edge_tets_) + space_.bytes();
 }

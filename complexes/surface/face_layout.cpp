@@ -9,7 +9,7 @@
 #include "complexes/surface/gluing.hpp"
 #include "complexes/surface/shape_blocks.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 Index pack(Index face, Index edge) { return face << Across::face_shift | edge; }
@@ -187,7 +187,7 @@ void FaceLayout::number_faces(int threads) {
 // Replaces the caller's vertices at the corners.
 void FaceLayout::name_vertices(std::size_t vertices) {
   vertex_to_inside.assign(vertices, none);
-  named = plexway::name_vertices(corner, vertex_to_inside, first_use);
+  named = detail::name_vertices(corner, vertex_to_inside, first_use);
 }
 
 std::vector<Index> FaceLayout::vertices_outside(int threads) const {
@@ -278,4 +278,4 @@ std::size_t FaceLayout::mark_refraction(const TriangleShapes& shapes, Refraction
   return all;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

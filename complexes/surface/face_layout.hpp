@@ -10,7 +10,7 @@
 #include "complexes/common/building_blocks.hpp"
 #include "complexes/surface/gluing.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 class TriangleShapes;
 
@@ -73,4 +73,4 @@ class FaceLayout {
 FaceLayout lay_out(std::span<const std::array<double, 3>> positions, Faces faces,
                    std::span<const Index> order, int threads);
 
-}  // namespace plexway
+}  // namespace plexway::detail

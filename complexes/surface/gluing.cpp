@@ -5,7 +5,7 @@
 
 #include <plexway/error.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 Index next_corner(Index corner) { return corner == 2 ? 0 : corner + 1; }
@@ -63,4 +63,4 @@ void check_gluing(Faces faces, std::span<const std::array<Index, 3>> across) {
                        ": glued from one side only");
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -12,7 +12,7 @@
 
 #include "complexes/common/building_blocks.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// across[f][i]: the halfedge 3 g + j that comes after halfedge 3 f + i around its edge, or none.
 using Gluing = std::vector<std::array<Index, 3>>;
@@ -140,4 +140,4 @@ void match_edges(std::size_t vertices, std::span<const std::array<Index, 3>> fac
       [&](const std::optional<Visit>& own) { visit.take(*own); });
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,9 +6,9 @@
 #include "complexes/common/local_frame.hpp"
 
 namespace plexway {
+using namespace detail;
 
-TangentPlanes fit_planes(std::span<const std::array<double, 3>> points,
-                         const Neighbours& neighbours, int threads) {
+TangentPlanes fit_planes(const GivenPoints& points, const Neighbours& neighbours, int threads) {
   check(points, neighbours);
   TangentPlanes planes;
   planes.normal.resize(points.size());
@@ -25,7 +25,7 @@ TangentPlanes fit_planes(std::span<const std::array<double, 3>> points,
   return planes;
 }
 
-std::vector<std::array<double, 3>> estimate_normals(std::span<const std::array<double, 3>> points,
+std::vector<std::array<double, 3>> estimate_normals(const GivenPoints& points,
                                                     const Neighbours& neighbours, int threads) {
   return fit_planes(points, neighbours, threads).normal;
 }

@@ -8,7 +8,7 @@
 #include "complexes/cloud/crease.hpp"
 #include "complexes/common/building_blocks.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 // What a vertex and its inner neighbours say about it.
@@ -230,4 +230,4 @@ void widen_boundary_saddles(const Places& places, std::span<const TangentFrame> 
     }
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

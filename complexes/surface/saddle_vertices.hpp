@@ -8,7 +8,7 @@
 #include "complexes/cloud/sheet_wedges.hpp"
 #include "complexes/surface/vertex_fans.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Decides at which vertices shortest paths may bend, and sets the sign bits of their sines.
 ///
@@ -30,4 +30,4 @@ void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& f
 void widen_boundary_saddles(const Places& places, std::span<const TangentFrame> frames,
                             const SheetRule& rule, SheetWedges& sheet);
 
-}  // namespace plexway
+}  // namespace plexway::detail

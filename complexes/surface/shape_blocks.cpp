@@ -1,6 +1,5 @@
 #include "complexes/surface/shape_blocks.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -12,7 +11,7 @@
 
 #include "complexes/surface/triangle_shape.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr std::size_t size = ShapeBlock::size;
@@ -202,4 +201,4 @@ void round_angles(const ShapeBlock& block, RoundedAngles<Real>& rounded) {
 template void round_angles(const ShapeBlock&, RoundedAngles<float>&);
 template void round_angles(const ShapeBlock&, RoundedAngles<double>&);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,7 +6,7 @@
 
 #include <plexway/common/ids.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Shapes of some triangles side by side, so that the processor can work on several at once. All 64
 /// places hold numbers, also where there are fewer.
@@ -93,4 +93,4 @@ struct RoundedAngles {
 template <class Real>
 void round_angles(const ShapeBlock& block, RoundedAngles<Real>& rounded);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -15,6 +15,7 @@
 #include "complexes/common/point3.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 constexpr int terms = 6;
@@ -101,8 +102,7 @@ double known_median(std::vector<double>& values) {
 
 }  // namespace
 
-double noise_level(std::span<const std::array<double, 3>> points, const Neighbours& neighbours,
-                   int threads) {
+double noise_level(const GivenPoints& points, const Neighbours& neighbours, int threads) {
   check(points, neighbours);
   // Squares: of the deviation among the nearer half and among all, and of their radii in
   // proportion.
@@ -130,8 +130,7 @@ double noise_level(std::span<const std::array<double, 3>> points, const Neighbou
   return std::sqrt(std::max((growth * variance - spread) / (growth - 1), 0.0));
 }
 
-std::vector<std::array<double, 3>> smooth(std::span<const std::array<double, 3>> points,
-                                          const Neighbours& neighbours,
+std::vector<std::array<double, 3>> smooth(const GivenPoints& points, const Neighbours& neighbours,
                                           const SmoothOptions& options) {
   check(points, neighbours);
   if (options.rounds < 0)

@@ -22,6 +22,10 @@
 #include "complexes/surface/vertex_fans.hpp"
 
 namespace plexway {
+using namespace detail;
+
+namespace detail {
+
 namespace {
 
 Index next_side(Index i) { return i == 2 ? 0 : i + 1; }
@@ -155,22 +159,23 @@ FaceLayout lay_out(std::span<const std::array<double, 3>> positions, Faces faces
           order.empty() ? along_curve(positions, faces, threads) : copy_of(order), threads};
 }
 
+}  // namespace detail
+
 SaddleThresholds SaddleThresholds::standard() {
   return {
       .interior = 1e-5, .boundary = 1e-6, .noise_share = 1, .most_noise = 0.02, .agreement = 0.7};
 }
 
 template <class Real>
-TriangleMesh<Real>::TriangleMesh(std::span<const std::array<double, 3>> positions,
-                                 std::span<const std::array<Index, 3>> faces,
+TriangleMesh<Real>::TriangleMesh(const GivenPoints& positions, const GivenSimplices<3>& faces,
                                  const SurfaceHints& hints) {
   assemble(lay_out(positions, faces, hints.order, hints.threads), ShapesInSpace(positions, faces),
            hints);
 }
 
 template <class Real>
-TriangleMesh<Real>::TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
-                                 std::span<const std::array<double, 3>> lengths,
+TriangleMesh<Real>::TriangleMesh(std::size_t vertices, const GivenSimplices<3>& faces,
+                                 const Given<std::array<double, 3>>& lengths,
                                  const SurfaceHints& hints) {
   check_faces(vertices, faces, hints.threads);
   check_corners(faces, hints.threads);

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A triangle by its lengths and angles, in double: what a TriangleRecord is rounded from.
 struct TriangleShape {
@@ -90,4 +90,4 @@ inline TriangleShape shape_from_lengths(const std::array<double, 3>& length) {
   return shape;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -7,7 +7,7 @@
 #include "complexes/common/disjoint_sets.hpp"
 #include "complexes/surface/face_layout.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 // How many corners a walk from one of them meets. Where no sheet turns over it is a loop of four
@@ -184,4 +184,4 @@ bool is_open_book(std::span<const TriangleRecord<Real>> triangles, std::span<con
 template bool is_open_book(std::span<const TriangleRecord<float>>, std::span<const Index>);
 template bool is_open_book(std::span<const TriangleRecord<double>>, std::span<const Index>);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -7,7 +7,7 @@
 #include <plexway/common/ids.hpp>
 #include <plexway/surface/detail/triangle_record.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 class FaceLayout;
 
@@ -62,4 +62,4 @@ void walk_fan(std::span<const TriangleRecord<Real>> triangles, Index start, Visi
 template <class Real>
 bool is_open_book(std::span<const TriangleRecord<Real>> triangles, std::span<const Index> corners);
 
-}  // namespace plexway
+}  // namespace plexway::detail

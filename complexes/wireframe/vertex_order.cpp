@@ -5,7 +5,7 @@
 #include "complexes/common/fill_rows.hpp"
 #include "complexes/common/simplex_order.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 std::vector<Index> vertices_along_curve(std::span<const std::array<double, 3>> positions) {
   std::vector<std::array<Index, 1>> points(positions.size());
@@ -54,4 +54,4 @@ std::vector<Index> vertices_in_blocks(std::size_t vertices,
   return order;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

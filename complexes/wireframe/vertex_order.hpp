@@ -7,7 +7,7 @@
 
 #include <plexway/common/ids.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Vertices along a space-filling (Morton) curve. Positions are finite.
 std::vector<Index> vertices_along_curve(std::span<const std::array<double, 3>> positions);
@@ -18,4 +18,4 @@ std::vector<Index> vertices_in_blocks(std::size_t vertices,
                                       std::span<const std::array<Index, 2>> edges,
                                       std::size_t block);
 
-}  // namespace plexway
+}  // namespace plexway::detail

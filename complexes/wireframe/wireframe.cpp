@@ -12,6 +12,7 @@
 #include "complexes/wireframe/vertex_order.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 using Edges = std::span<const std::array<Index, 2>>;
@@ -53,8 +54,7 @@ double typical_of(std::span<const double> lengths, double mean) {
 }  // namespace
 
 template <class Real>
-Wireframe<Real>::Wireframe(std::span<const std::array<double, 3>> positions,
-                           std::span<const std::array<Index, 2>> edges) {
+Wireframe<Real>::Wireframe(const GivenPoints& positions, const GivenSimplices<2>& edges) {
   check_edges(positions.size(), edges);
   for (std::size_t v = 0; v < positions.size(); ++v)
     for (const double x : positions[v])
@@ -73,8 +73,8 @@ Wireframe<Real>::Wireframe(std::span<const std::array<double, 3>> positions,
 }
 
 template <class Real>
-Wireframe<Real>::Wireframe(std::size_t vertices, std::span<const std::array<Index, 2>> edges,
-                           std::span<const double> lengths) {
+Wireframe<Real>::Wireframe(std::size_t vertices, const GivenSimplices<2>& edges,
+                           const Given<double>& lengths) {
   check_edges(vertices, edges);
   if (lengths.size() != edges.size())
     throw InputError(std::to_string(edges.size()) + " edges with " +

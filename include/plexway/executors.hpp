@@ -36,12 +36,14 @@ struct Serial {
 /// Several threads of one process.
 ///
 /// The step is that of Serial. Surfaces, clouds and wireframes are cut into pieces, which exchange
-/// labels or windows over their borders; one field of a solid, of a mixed domain of several pieces
-/// or of a complex of any dimension is one thread's, with Serial's bits.
+/// labels or windows over their borders; in solids and mixed domains that strings solve, threads
+/// share the vertices of the front. Sheets that join to one surface go as that. Solids by `fast`,
+/// other mixed domains and complexes of any dimension are one thread's, with Serial's bits.
 /// Either way the result does not depend on the number of threads or on their timing: it is the
-/// same to the last bit, also where a propagation is cut short by max_expansions. Exact windows, a
-/// domain of a single piece and distances in wireframes have Serial's bits. Else it differs where
-/// the order of work decides, and is as accurate. The workspace is the one that Serial takes.
+/// same to the last bit, also where a propagation is cut short by max_expansions. Exact windows,
+/// strings, a domain of a single piece that is cut and distances in wireframes have Serial's bits.
+/// Else it differs where the order of work decides, and is as accurate. The workspace is the one
+/// that Serial takes.
 ///
 /// Cost: on one thread 1.05 to 1.2 times that of Serial in pieces, and more. Many fields of one
 /// domain are best had by `solve_each`, which takes one thread a source. Memory in float, beyond

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <concepts>
-#include <cstddef>
 #include <span>
 
 #include <plexway/domain/domains.hpp>

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <span>
 #include <type_traits>
 
 #include <plexway/domain/concept.hpp>
 #include <plexway/domain/support.hpp>
 #include <plexway/executors.hpp>
 #include <plexway/solve/options.hpp>
+#include <plexway/source/source_list.hpp>
 
 /// @file
 /// The table of supported combinations. The sentences that say why something is not, and what
@@ -67,7 +69,7 @@ constexpr Support support_of_windows(const Combination& c) {
 }
 
 /// Could strings, which solids are solved by (docs/contributing/methods/strings.md)? Else why not.
-/// By one thread, nearest first whatever the schedule.
+/// Nearest first whatever the schedule.
 constexpr Support support_of_strings(const Combination& c) {
   if (c.domain != DomainKind::solid) return Refusal::windows_domain;
   if (c.executor == ExecutorKind::gl) return Refusal::strings_gl;
@@ -356,6 +358,12 @@ constexpr Support support_of_sources(Purpose purpose, bool only_points) {
                          purpose == Purpose::astar || purpose == Purpose::samples ||
                          purpose == Purpose::darts || purpose == Purpose::in_parts;
   return by_points && !only_points ? Refusal::points_alone : Refusal::nothing;
+}
+
+/// The points of a list, for a purpose that starts from points alone; UsageError for others in it.
+inline std::span<const PointSource> points_of(Purpose purpose, const SourceList& sources) {
+  support_of_sources(purpose, sources.only_points()).require();
+  return sources.points();
 }
 
 /// Is there anything that an executor solves on a domain?

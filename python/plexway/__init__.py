@@ -41,7 +41,7 @@ from ._domain import Domain
 from ._grid import Grid
 from ._kinds import Cloud, Mixed, Simplicial, Solid, Surface, Wireframe
 from ._make import distance, domain, read, read_labels, show
-from ._metrics import EdgeLengths, SimplexSpeeds, SimplexTensors, VertexTensors
+from ._metrics import EdgeLengths, SimplexSpeeds, SimplexTensors, VertexSpeeds, VertexTensors
 from ._results import Cells, Disks, FarthestPoints, Field, Isosurfaces, Path, Picture, Points
 from ._sources import (
     Ball,
@@ -92,6 +92,7 @@ __all__ = [
     "Surface",
     "UsageError",
     "Vertex",
+    "VertexSpeeds",
     "VertexTensors",
     "Vertices",
     "WholeSimplex",

@@ -553,7 +553,7 @@ class Domain:
         arguments = _arguments(threads, None, _INFINITY, "saddles", accuracy, many=True)
         located_sources = self._rows(sources)
         if not located_sources:
-            return csr_matrix((0, width), dtype=self.dtype)
+            return csr_matrix((0, width), dtype=np.float64)
         with Progress(progress, "solving") as report:
             *rows, doubts = _plexway.near(
                 self._native,
@@ -788,7 +788,7 @@ class Domain:
         -------
         FarthestPoints
         """
-        sources = located(self, start)
+        sources = open_sources(self, start)
         count = whole(count, "count", 1)
         with Progress(progress, "choosing points") as report:
             points, distance, covering = _plexway.farthest(
@@ -822,7 +822,7 @@ class Domain:
         iterations = whole(iterations, "iterations", 1)
         if isinstance(seeds, (int, np.integer)):
             seeds = self.poisson(count=whole(seeds, "seeds", 1)).points
-        native = seeds._native if isinstance(seeds, Points) else located(self, seeds)
+        native = seeds._native if isinstance(seeds, Points) else open_sources(self, seeds)
         with Progress(progress, "moving seeds") as report:
             points, label, content, energy, converged = _plexway.cvt(
                 self._native, native, iterations, real(tolerance, "tolerance"), report
@@ -918,7 +918,7 @@ class Domain:
         label: Optional[ArrayLike] = None,
     ) -> None:
         """Writes one distance a vertex, with the domain where the format holds it: .vtu, .ply,
-        .npy, .csv and others, by extension.
+        .npy, .csv, .gii and others, by extension.
 
         Parameters
         ----------

@@ -11,7 +11,7 @@ from . import _plexway
 from ._arrays import Array, plain
 from ._domain import Domain
 from ._kinds import Solid, Surface
-from ._metrics import VertexTensors
+from ._metrics import VertexSpeeds
 from ._sources import Source, Vertices
 
 
@@ -66,7 +66,7 @@ class Grid:
         if self._speed is not None:
             if not np.all(self._speed > 0):
                 raise ValueError("speed: expected numbers > 0; leave points out by `mask`")
-            metric = VertexTensors(np.eye(3) / self._speed[:, None, None] ** 2)
+            metric = VertexSpeeds(self._speed)
         of: Any = Surface if axes == 2 else Solid
         self.domain = of(
             points,

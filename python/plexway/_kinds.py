@@ -84,6 +84,7 @@ class _OfSimplices(Domain):
         elif vertices is None:
             vertices = int(rows.max()) + 1 if rows.size else 0
         with Progress(progress, "building") as report:
+            options = _options_of(precision, triangulation, metric, report, mask)
             self._native = _plexway.from_arrays(
                 self._kind,
                 V,
@@ -91,7 +92,7 @@ class _OfSimplices(Domain):
                 rows,
                 lengths,
                 merge=None if merge is None else real(merge, "merge"),
-                **_options_of(precision, triangulation, metric, report, mask),
+                **options,
             )
         warn(self._native.doubts)
 
@@ -125,8 +126,8 @@ class Surface(_OfSimplices):
     vertices : int, optional
         With `lengths`: how many vertices there are.
     metric : optional
-        `SimplexSpeeds`, `SimplexTensors`, `VertexTensors`, `EdgeLengths`, or a function from a
-        point to a symmetric 3 x 3 matrix.
+        `SimplexSpeeds` (these with `lengths`, too), `VertexSpeeds`, `SimplexTensors`,
+        `VertexTensors`, `EdgeLengths`, or a function from a point to a symmetric 3 x 3 matrix.
     mask : array_like of bool, shape (m,) or (n,), or str, optional
         Triangles that are left; or vertices, then triangles all of whose corners are. Or labels
         that are left out, 'FILE:3,7', of a file that gives each vertex one (see `read_labels`); or

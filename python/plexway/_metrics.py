@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Optional, Tuple, Union
 
 import numpy as np
+
+from . import _plexway
+from ._arrays import Array
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -25,6 +28,18 @@ class SimplexSpeeds:
 
     speed: ArrayLike
     refract: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class VertexSpeeds:
+    """One speed > 0 a vertex; along an edge the square of its inverse is linear.
+
+    Parameters
+    ----------
+    speed : array_like of float, shape (n,)
+    """
+
+    speed: ArrayLike
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,10 +88,9 @@ def described(metric: Any) -> Optional[Tuple[Any, ...]]:
     if metric is None:
         return None
     if isinstance(metric, SimplexSpeeds):
-        speeds = np.asarray(metric.speed)
-        if speeds.ndim != 1:
-            raise ValueError(f"SimplexSpeeds: expected shape (m,), got {speeds.shape}")
-        return "speeds", speeds, metric.refract
+        return "speeds", _speeds(metric), metric.refract
+    if isinstance(metric, VertexSpeeds):
+        return "vertex tensors", np.eye(3) / _speeds(metric)[:, None, None] ** 2
     if isinstance(metric, (SimplexTensors, VertexTensors)):
         tensors = np.asarray(metric.tensor)
         if tensors.ndim != 3 or tensors.shape[1:] != (3, 3):
@@ -91,6 +105,15 @@ def described(metric: Any) -> Optional[Tuple[Any, ...]]:
     if callable(metric):
         return "function", metric
     raise TypeError(
-        "metric: expected SimplexSpeeds, SimplexTensors, VertexTensors, EdgeLengths or a function "
-        f"from a point to a 3 x 3 matrix, got {type(metric).__name__}"
+        "metric: expected SimplexSpeeds, VertexSpeeds, SimplexTensors, VertexTensors, EdgeLengths or "
+        f"a function from a point to a 3 x 3 matrix, got {type(metric).__name__}"
     )
+
+
+def _speeds(metric: Union[SimplexSpeeds, VertexSpeeds]) -> Array:
+    speeds = np.asarray(metric.speed, float)
+    if speeds.ndim != 1:
+        raise ValueError(f"{type(metric).__name__}: expected one axis, got shape {speeds.shape}")
+    if not (np.all(speeds > 0) and np.all(np.isfinite(speeds))):
+        raise _plexway.InputError(f"{type(metric).__name__}: expected numbers > 0 as speeds")
+    return speeds

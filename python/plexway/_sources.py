@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, List, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, List, Optional, Sequence, Type, Union
 
 import numpy as np
 
@@ -227,9 +227,14 @@ def place(domain: Any, at: Any) -> Any:
         if not np.all(np.isfinite(xyz)):
             raise _plexway.UsageError(f"the point {xyz} is not finite")
         return _closest(domain, xyz, len(array) == 2)
-    raise ValueError(
+    raise _wrong(array)(
         f"expected a vertex (an integer) or a point (three floats), got {at!r:.60}"
     )
+
+
+def _wrong(array: Any) -> Type[Exception]:
+    """What NumPy would raise: of rows of numbers their shape is wrong, of all else the type."""
+    return ValueError if array.ndim and array.dtype.kind in "fiu" else TypeError
 
 
 def only_place(domain: Any, at: Any) -> Any:
@@ -293,7 +298,7 @@ def located(domain: Any, source: Any, none_is_well: bool = False) -> List[Any]:
         if none_is_well:
             return []
         raise _plexway.UsageError("no source: the list is empty")
-    raise ValueError(
+    raise _wrong(array)(
         "a source is a vertex (an integer), vertices (integers), a point (three floats), points "
         f"(k, 3), or one of plexway's sources; got {_told(source, array)}"
     )

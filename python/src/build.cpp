@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -15,6 +16,7 @@
 
 #include "arrays.hpp"
 #include "domain.hpp"
+#include "metric/triangle_times.hpp"
 
 namespace plexway::python {
 namespace {
@@ -97,6 +99,22 @@ MeasuredLengths measured_before(const AnyShape& shape, const py::tuple& describe
   return lengths;
 }
 
+// A metric by which a shape is measured now; a surface that has lengths alone by speeds.
+MeasuredLengths measured_by(const AnyShape& shape, const py::tuple& described) {
+  const metric::Metric metric = metric_of(
+      described, shape.kind() == DomainKind::surface || shape.kind() == DomainKind::solid);
+  const auto* speeds = std::get_if<metric::SimplexSpeeds>(&metric);
+  if (shape.kind() != DomainKind::surface || shape.lengths() == nullptr || speeds == nullptr)
+    return shape.measure(metric);
+  MeasuredLengths lengths;
+  lengths.refracts = speeds->agreement.sides == metric::Sides::own;
+  lengths.triangles = metric::triangle_times(
+      shape.lengths()->triangles, std::get<io::Triangles>(shape.data()).triangles, *speeds);
+  lengths.violations =
+      metric::find_violations(std::span<const std::array<double, 3>>(lengths.triangles));
+  return lengths;
+}
+
 struct BuildArguments {
   std::string precision, triangulation;
   py::object metric;    // None, or a tuple as above
@@ -156,10 +174,8 @@ std::shared_ptr<Domain> build(AnyShape shape, const BuildArguments& arguments) {
   if (!arguments.metric.is_none()) {
     const auto described = arguments.metric.cast<py::tuple>();
     options.lengths = std::make_shared<const MeasuredLengths>(
-        described[0].cast<std::string>() == "measured"
-            ? measured_before(shape, described)
-            : shape.measure(metric_of(described, shape.kind() == DomainKind::surface ||
-                                                     shape.kind() == DomainKind::solid)));
+        described[0].cast<std::string>() == "measured" ? measured_before(shape, described)
+                                                       : measured_by(shape, described));
   }
   options.mask = mask_of(arguments.mask, shape);
   Watch watch(arguments.progress);

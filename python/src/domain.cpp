@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -288,10 +287,10 @@ void bind_domain(py::module_& module) {
           "all_simplices",
           [](const std::shared_ptr<Domain>& d) { return simplices(d->shape(), py::cast(d)); })
       .def("require_open",
-           [](const Domain& domain, const std::vector<Source>& sources) {
+           [](const Domain& domain, const py::list& sources) {  // cast only where it matters
              const OpenSimplices* const open = domain.any().open_simplices();
              if (open == nullptr || domain.options().mask == nullptr) return;
-             for (const Source& source : sources) open->require(source);
+             for (const py::handle source : sources) open->require(source.cast<Source>());
            })
       .def_property_readonly("mask", &given_mask)
       .def_property_readonly("merge",  // None where no vertices were merged

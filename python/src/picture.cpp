@@ -1,7 +1,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,6 +19,7 @@
 #endif
 
 namespace plexway::python {
+using namespace detail;
 namespace {
 
 // What is drawn; `value` has the distances.

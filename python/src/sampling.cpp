@@ -1,7 +1,5 @@
 #include <pybind11/stl.h>
 
-#include <string>
-#include <type_traits>
 #include <vector>
 
 #include <plexway/error.hpp>

@@ -4,6 +4,7 @@ an answer that is known exactly."""
 
 import itertools
 import pickle
+import zipfile
 
 import numpy as np
 import plexway as px
@@ -340,3 +341,54 @@ def test_paths_have_the_length_of_distances_and_lie_on_the_surface():
             close(path.length, field.distance[v], 1e-11)
             close(np.linalg.norm(np.diff(path.points, axis=0), axis=1).sum(), path.length, 1e-11)
             close(path.points[[0, -1]], V[[v, 0]], 1e-9)
+
+
+# -- Features that meet.
+
+
+def three_mf(file, V, F, transform):
+    rows = lambda name, keys, rows: "".join(
+        f"<{name} " + " ".join(f'{k}="{x}"' for k, x in zip(keys, row)) + "/>" for row in rows
+    )
+    model = (
+        f'<model unit="millimeter"><resources><object id="1" type="model"><mesh><vertices>'
+        f'{rows("vertex", "xyz", V.tolist())}</vertices><triangles>'
+        f'{rows("triangle", ("v1", "v2", "v3"), F.tolist())}</triangles></mesh></object></resources>'
+        f'<build><item objectid="1" transform="{transform}"/></build></model>'
+    )
+    with zipfile.ZipFile(file, "w") as archive:
+        archive.writestr("_rels/.rels", '<R><R Target="/m" Type="http://x/3dmodel"/></R>')
+        archive.writestr("m", model)
+
+
+@pytest.mark.parametrize("precision, rounding", [("single", 1e-6), ("double", 1e-13)])
+def test_speeds_and_a_mask_on_what_a_3mf_mirrors_and_scales(tmp_path, precision, rounding):
+    n = 20
+    V, F = grid(n)
+    three_mf(tmp_path / "a.3mf", n * V, F, "-0.5 0 0 0 0.5 0 0 0 0.5 3 1 2")
+    try:
+        sheet = px.read(tmp_path / "a.3mf")
+    except px.NotBuilt:
+        pytest.skip("no pugixml")
+    X, T = np.asarray(sheet.vertices), np.asarray(sheet.simplices)
+    close(X, n * V * [-0.5, 0.5, 0.5] + [3, 1, 2])
+    assert np.array_equal(np.sort(T), np.sort(F))
+    assert (np.cross(X[T[:, 1]] - X[T[:, 0]], X[T[:, 2]] - X[T[:, 0]])[:, 2] > 0).all()
+    # Slow on the right of x = -2, where nothing is left but a strip.
+    x, y = X[T].mean(axis=1)[:, :2].T
+    speed, left = np.where(x < -2, 1.0, 0.5), (x < -2) | (np.abs(y - 6) < 1)
+    options = dict(precision=precision, metric=px.SimplexSpeeds(speed), mask=left)
+    source = int(np.argmin(np.linalg.norm(X - [-5, 3, 2], axis=1)))
+    d = px.read(tmp_path / "a.3mf", **options).distance(source)
+    assert np.array_equal(px.Surface(X, T, **options).distance(source), d)
+    # A path enters the strip once, where that is best.
+    entries = np.stack([np.full(20001, -2), np.linspace(5, 7, 20001)], axis=1)
+    first = np.linalg.norm(entries - X[source, :2], axis=1)
+    straight = np.linalg.norm(X - X[source], axis=1)
+    open_half = X[:, 0] < -2 + 1e-9
+    np.testing.assert_allclose(d[open_half], straight[open_half], rtol=rounding)
+    strip = ~open_half & (np.abs(X[:, 1] - 6) < 1 + 1e-9)
+    assert np.isinf(d[~open_half & ~strip]).all()
+    truth = [(first + 2 * np.linalg.norm(entries - p, axis=1)).min() for p in X[strip, :2]]
+    error = np.abs(d[strip] / truth - 1)
+    assert error.mean() < 5e-4 and error.max() < 1.2e-2

@@ -263,9 +263,12 @@ def test_sources_behind_a_mask_are_refused():
         lambda: sheet.distances([0, 7]),
         lambda: sheet.near(7, radius=1.0),
         lambda: sheet.path(7, 0),
+        lambda: sheet.farthest(3, start=7),
+        lambda: sheet.cvt([0, 7]),
     ):
         with pytest.raises(px.UsageError, match="vertex 7 is masked"):
             call()
+    assert sheet.near([], radius=1.0).dtype == np.float64
     assert sheet.distances([0], accuracy="exact").dtype == np.float64
     # All vertices as rows are all of them.
     rows = sheet.distances()

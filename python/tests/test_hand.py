@@ -387,6 +387,52 @@ def test_speeds_that_change_evenly():
     assert errors[1] < 1e-4 and np.all(np.array(errors[:-1]) > 3 * np.array(errors[1:]))
 
 
+def test_speeds_with_lengths_and_at_vertices():
+    V, F = meshes.grid(12, jitter=0.2)
+    lengths = np.linalg.norm(V[np.roll(F, -1, axis=1)] - V[F], axis=2)
+    for fast, refract, close in ((3, True, 1e-9), (3, False, 1e-4), (1.05, True, 1e-9)):
+        speed = np.where(V[F].mean(axis=1)[:, 0] < 0.5, 1.0, fast)
+        metric = px.SimplexSpeeds(speed, refract)
+        there = px.Surface(V, F, metric=metric, precision="double").distance(0)
+        alone = px.Surface(None, F, lengths=lengths, metric=metric, precision="double").distance(0)
+        assert np.allclose(alone, there, rtol=close, atol=0)
+    with pytest.raises(ValueError, match="numbers > 0"):
+        px.Surface(None, F, lengths=lengths, metric=px.SimplexSpeeds(0 * speed))
+    # A ring: what is glued has no positions, and twice the speed half the distance.
+    ring = np.where(F % 13 == 12, F - 12, F)
+    whole = px.Surface(None, ring, lengths=lengths).distance(0)
+    fast = px.Surface(None, ring, lengths=lengths, metric=px.SimplexSpeeds(np.full(len(F), 2.0))).distance(0)
+    reached = np.isfinite(whole)
+    assert np.allclose(2 * fast[reached], whole[reached], rtol=1e-3)
+
+    plane = px.Surface(V, F, precision="double").distance(0)
+    half = px.Surface(V, F, metric=px.VertexSpeeds(np.full(len(V), 2.0)), precision="double").distance(0)
+    assert np.allclose(2 * half, plane, rtol=1e-3)
+    with pytest.raises(ValueError, match="one axis"):
+        px.Surface(V, F, metric=px.VertexSpeeds(np.ones((len(V), 2))))
+
+
+@pytest.mark.parametrize("source", ["a", {}, 1.5, [0, "a"]])
+def test_what_is_no_number_is_a_type_error(source):
+    V, F = meshes.grid(4)
+    with pytest.raises(TypeError, match="a source is a vertex"):
+        px.distance(V, F, source)
+    with pytest.raises(ValueError, match="shape"):
+        px.distance(V, F, np.zeros((2, 4)))
+
+
+def test_fields_as_gifti(tmp_path):
+    import base64
+    import re
+
+    V, F = meshes.grid(4)
+    surface = px.Surface(V, F)
+    distance = surface.distance(0)
+    surface.write(tmp_path / "d.func.gii", distance)
+    data = re.search("<Data>([^<]*)</Data>", (tmp_path / "d.func.gii").read_text())
+    assert np.array_equal(np.frombuffer(base64.b64decode(data[1]), "<f4"), distance.astype("<f4"))
+
+
 def test_level_sets():
     grid = px.Grid((41, 41), 0.05, precision="double")
     x, y = np.indices(grid.shape) * 0.05

@@ -263,7 +263,7 @@ def test_parts_keep_no_metric_in_silence():
         px.distance(px.Surface(V, F), 0)
     with pytest.raises(px.UsageError, match="only lengths"):
         lengths = np.linalg.norm(V[F] - V[F[:, [1, 2, 0]]], axis=2)
-        px.Surface(F=F, lengths=lengths, metric=px.SimplexSpeeds(np.ones(len(F))))
+        px.Surface(F=F, lengths=lengths, metric=px.SimplexTensors(np.tile(np.eye(3), (len(F), 1, 1))))
 
 
 def test_lengths_that_are_no_metric_are_told():

@@ -4,13 +4,14 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <variant>
 
 #include <plexway/domain/concept.hpp>
 #include <plexway/error.hpp>
 #include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What a source may name.
 struct SourceDomain {
@@ -25,6 +26,17 @@ SourceDomain source_domain(const D& domain) {
   constexpr auto kind = static_cast<std::size_t>(D::kind);
   return {domain.vertex_count(), domain.simplex_count(), kind < 3 ? names[kind] : "simplex",
           static_cast<std::size_t>(D::dimension) + 1};
+}
+
+/// Of a mixed domain: corners are those of the piece in which the source lies.
+template <class Mixed>
+SourceDomain source_domain(const Mixed& domain, const PointSource& at) {
+  std::size_t corners = 4;
+  for (const auto& piece : domain.pieces())
+    if (at.simplex >= piece.first_simplex && at.simplex - piece.first_simplex < piece.simplices)
+      corners = std::visit([]<class C>(const C&) { return std::size_t{C::dimension} + 1; },
+                           domain.complex(piece));
+  return {domain.vertex_count(), domain.simplex_count(), "simplex", corners};
 }
 
 /// Throws UsageError for a vertex or a point that `domain` does not have, or an offset below 0.
@@ -85,4 +97,4 @@ void check(std::span<const PointSource> sources, const PropagateOptions& options
   check(sources, options, source_domain(domain));
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -4,6 +4,7 @@
 #include "executors/run.hpp"
 
 namespace plexway {
+using namespace detail;
 
 #define PLEXWAY_SHEETS(...)              \
   PLEXWAY_ELSEWHERE(Serial, __VA_ARGS__) \
@@ -15,10 +16,7 @@ template <class E, class Real>
 void solve_points(const E& executor, const PointCloud<Real>& cloud,
                   std::span<const PointSource> sources, const PropagateOptions& options,
                   Workspace<Real>& workspace, DistanceField<Real>& field) {
-  solve_on_cloud(cloud, sources, field,
-                 [&](const TriangleMesh<Real>& surface, std::span<const PointSource> moved) {
-                   solve(executor, surface, moved, options, workspace, field);
-                 });
+  solve_on_cloud(executor, cloud, sources, options, workspace.state().moved, workspace, field);
 }
 
 PLEXWAY_CLOUDS(PLEXWAY_COMPILE_HERE)

@@ -12,8 +12,8 @@
 #include "labels/alone.hpp"
 #include "labels/curve_pieces.hpp"
 #include "labels/curve_seeds.hpp"
-#include "windows/curve_lights.hpp"
 #include "windows/window_solver.hpp"
+#include "windows/window_sources.hpp"
 
 /// Fields from curves and triangles on a surface.
 namespace plexway::detail {
@@ -176,9 +176,9 @@ void solve_shapes(const E& executor, const TriangleMesh<Real>& mesh,
   WorkspaceState<Real>& workspace = kept.state();
   const std::vector<Shape> shapes = cut_shapes(mesh, sources, parts);
   check(std::span<const PointSource>(parts.points), options, mesh);
-  const Accuracy accuracy = resolved(
-      options.accuracy,
-      detail::with(combination<E, TriangleMesh<Real>>(SourceKind::curve), mesh.metric(), options));
+  const Accuracy accuracy =
+      resolved(options.accuracy,
+               with(combination<E, TriangleMesh<Real>>(SourceKind::curve), mesh.metric(), options));
   const bool by_windows = accuracy.kind() != Accuracy::Kind::fast;
   if (by_windows) {
     if constexpr (E::kind == ExecutorKind::openmp)

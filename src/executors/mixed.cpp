@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <span>
-#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -17,11 +15,13 @@
 #include "complexes/mixed/joined_pieces.hpp"
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
+#include "executors/threads/share_strings.hpp"
 #include "executors/threads/team.hpp"
 #include "labels/mixed/mixed_pieces.hpp"
 #include "strings/mixed_strings.hpp"
 
 namespace plexway {
+using namespace detail;
 
 // A domain of one piece is solved as what it is.
 #define PLEXWAY_ONE_PIECE(...)           \
@@ -36,27 +36,14 @@ namespace {
 
 // The piece that a source lies in, and the source in that piece's numbers.
 template <class Real>
-std::pair<Index, PointSource> find_piece(const MixedComplex<Real>& domain,
-                                         const PointSource& source) {
+std::pair<Index, PointSource> find_piece(const MixedComplex<Real>& domain, PointSource source) {
+  using Piece = typename MixedComplex<Real>::Piece;
   const bool at_vertex = source.vertex != none;
-  const Index number = at_vertex ? source.vertex : source.simplex;
-  for (const auto& piece : domain.pieces()) {
-    const Index first = at_vertex ? piece.first_vertex : piece.first_simplex;
-    const Index count = at_vertex ? piece.vertices : piece.simplices;
-    if (number < first || number - first >= count) continue;
-    PointSource own = source;
-    (at_vertex ? own.vertex : own.simplex) = number - first;
-    return {piece.number, own};
-  }
-  throw UsageError(std::string("source ") + (at_vertex ? "vertex " : "simplex ") +
-                   std::to_string(number) + " is out of range, there are " +
-                   std::to_string(at_vertex ? domain.vertex_count() : domain.simplex_count()));
-}
-
-template <class Real>
-std::size_t corners_of(const typename MixedComplex<Real>::Complex& complex) {
-  if (std::holds_alternative<Wireframe<Real>>(complex)) return 2;
-  return std::holds_alternative<TriangleMesh<Real>>(complex) ? 3 : 4;
+  const auto first = at_vertex ? &Piece::first_vertex : &Piece::first_simplex;
+  Index& number = at_vertex ? source.vertex : source.simplex;
+  const Piece& piece = piece_of(domain, number, first);
+  number -= piece.*first;
+  return {piece.number, source};
 }
 
 // Sheets that are one surface go by windows where these go: one label a triangle leaks light from
@@ -69,7 +56,7 @@ void solve_single(const E& executor, const typename MixedComplex<Real>::Complex&
       [&]<class D>(const D& domain) {
         const auto cell = combination<E, D>(SourceKind::point);
         if (std::is_same_v<Real, double> && options.accuracy == Accuracy::usual() &&
-            support_of_windows(detail::with(cell, domain.metric(), options)))
+            support_of_windows(with(cell, domain.metric(), options)))
           options.accuracy = Accuracy::exact();
         solve(executor, domain, sources, options, workspace, field);
       },
@@ -82,16 +69,20 @@ class PiecesSolve {
  public:
   PiecesSolve(const MixedComplex<Real>& domain, std::vector<WorkspaceState<Real>>& workspaces,
               const PropagateOptions& options, DistanceField<Real>& field)
-      : domain_(domain), options_(options), field_(field), waiting_(domain.pieces().size()) {
+      : domain_(domain),
+        options_(options),
+        field_(field),
+        waiting_(domain.pieces().size()),
+        repaired_(domain.pieces().size()) {
     workspaces.resize(domain.pieces().size());
     for (const auto& piece : domain.pieces())
       pieces_.push_back(
-          std::visit([&](const auto& c) { return detail::make_piece(c, workspaces[piece.number]); },
+          std::visit([&](const auto& c) { return make_piece(c, workspaces[piece.number]); },
                      domain.complex(piece)));
     welds_.resize(pieces_.size());
     for (const auto& [v, w] : domain.outer_welds()) {
-      welds_[piece_of(v)].push_back({v, w});
-      welds_[piece_of(w)].push_back({w, v});
+      welds_[piece_of(domain, v).number].push_back({v, w});
+      welds_[piece_of(domain, w).number].push_back({w, v});
     }
     find_points();
     field.distance.assign(domain.vertex_count(), std::numeric_limits<Real>::infinity());
@@ -116,6 +107,10 @@ class PiecesSolve {
       add(next);
       tell(next);
     }
+    for (const auto& [raised, lowered] : repaired_) {
+      field_.statistics.raised_vertices += raised;
+      field_.statistics.lowered_vertices += lowered;
+    }
     for (bool again = true; again;) {
       again = false;
       for (const auto& [v, w] : domain_.outer_welds()) again |= take(v, w, 1) || take(w, v, 1);
@@ -123,13 +118,6 @@ class PiecesSolve {
   }
 
  private:
-  [[nodiscard]] Index piece_of(Index vertex) const {
-    const auto after =
-        std::upper_bound(domain_.pieces().begin(), domain_.pieces().end(), vertex,
-                         [](Index v, const auto& piece) { return v < piece.first_vertex; });
-    return std::prev(after)->number;
-  }
-
   // The middle of each edge that two pieces share: paths go over there, too.
   void find_points() {
     points_.resize(pieces_.size());
@@ -162,7 +150,7 @@ class PiecesSolve {
     }
   }
   [[nodiscard]] const auto& member(Index hinge, std::size_t side) const {
-    return domain_.members()[domain_.hinges()[hinge].begin[side]];
+    return domain_.hinges()[hinge].member[side];
   }
   // A vertex of a hinge, by its number inside the first piece.
   [[nodiscard]] Index corner(Index hinge, std::size_t i) const {
@@ -200,8 +188,7 @@ class PiecesSolve {
     field_.statistics.expansions += took.expansions;
     field_.statistics.updates += took.updates;
     field_.statistics.reached_simplices += took.reached_simplices;
-    field_.statistics.raised_vertices += took.raised_vertices;
-    field_.statistics.lowered_vertices += took.lowered_vertices;
+    repaired_[number] = {took.raised_vertices, took.lowered_vertices};
     pieces_[number]->read_out(
         std::span(field_.distance).subspan(piece.first_vertex, piece.vertices),
         std::span(field_.label).subspan(piece.first_vertex, piece.vertices));
@@ -212,18 +199,18 @@ class PiecesSolve {
   void tell(Index number) {
     constexpr Real gain = 1 - 64 * std::numeric_limits<Real>::epsilon();
     for (const auto& [own, other] : welds_[number]) {
-      if (static_cast<double>(field_.distance[own]) > options_.radius || !take(own, other, gain))
+      if (field_.distance[own] > static_cast<Real>(options_.radius) || !take(own, other, gain))
         continue;
-      const auto& piece = domain_.pieces()[piece_of(other)];
+      const auto& piece = piece_of(domain_, other);
       PointSource source = PointSource::at(other - piece.first_vertex);
       source.offset = static_cast<double>(field_.distance[own]);
       waiting_[piece.number].push_back({source, field_.label[own]});
     }
     const SharedPoints& own = points_[number];
-    std::vector<detail::MixedFound> found(own.at.size());
+    std::vector<MixedFound> found(own.at.size());
     pieces_[number]->read_out(own.at, found);
     for (std::size_t n = 0; n < found.size(); ++n) {
-      detail::MixedFound& known = known_[own.number[n]];
+      MixedFound& known = known_[own.number[n]];
       if (!(found[n].distance < known.distance * static_cast<double>(gain)) ||
           found[n].distance > options_.radius)
         continue;
@@ -244,16 +231,17 @@ class PiecesSolve {
   const MixedComplex<Real>& domain_;
   const PropagateOptions& options_;
   DistanceField<Real>& field_;
-  std::vector<std::unique_ptr<detail::MixedPiece<Real>>> pieces_;
-  std::vector<std::vector<detail::MixedSource>> waiting_;  // by piece
-  std::vector<std::vector<std::array<Index, 2>>> welds_;   // by piece: of its vertices
+  std::vector<std::unique_ptr<MixedPiece<Real>>> pieces_;
+  std::vector<std::vector<MixedSource>> waiting_;         // by piece
+  std::vector<std::array<std::size_t, 2>> repaired_;      // by piece: raised, lowered vertices
+  std::vector<std::vector<std::array<Index, 2>>> welds_;  // by piece: of its vertices
   struct SharedPoints {
     std::vector<PointSource> at;                   // inside
     std::vector<Index> number;                     // in known_
     std::vector<std::pair<Index, Index>> partner;  // the other piece, and the point there
   };
   std::vector<SharedPoints> points_;  // by piece
-  std::vector<detail::MixedFound> known_;
+  std::vector<MixedFound> known_;
 };
 
 template <class E, class Real>
@@ -269,7 +257,7 @@ void solve_joined(E executor, const MixedComplex<Real>& domain,
   if constexpr (E::kind == ExecutorKind::openmp) const Team team(executor);  // may refuse
   PiecesSolve<Real>(domain, kept.state().parts, options, field).run(sources);
   for (std::size_t v = 0; v < field.distance.size(); ++v) {
-    if (static_cast<double>(field.distance[v]) <= options.radius) continue;
+    if (field.distance[v] <= static_cast<Real>(options.radius)) continue;
     field.distance[v] = std::numeric_limits<Real>::infinity();
     field.label[v] = none;
   }
@@ -282,16 +270,13 @@ void solve_points(const E& executor, const MixedComplex<Real>& domain,
                   std::span<const PointSource> sources, const PropagateOptions& options,
                   Workspace<Real>& kept, DistanceField<Real>& field) {
   check(sources, options);
-  for (const PointSource& source : sources) {
-    const auto [number, own] = find_piece(domain, source);
-    const auto& piece = domain.pieces()[number];
-    check_source(
-        own, {piece.vertices, piece.simplices, "simplex", corners_of<Real>(domain.complex(piece))});
-  }
+  for (const PointSource& source : sources) check_source(source, source_domain(domain, source));
   if (auto space = MixedSpace::of(domain); space->media) {
     auto& strings = kept.state().media;
     if (!strings) strings = std::make_shared<MixedStrings>();
-    strings->solve(domain, std::move(space), sources, options, field);
+    share_strings(executor, domain.vertex_count(), [&](const strings::Threads& threads) {
+      strings->solve(domain, std::move(space), sources, options, threads, field);
+    });
     return;
   }
   const auto joined = domain.joined();

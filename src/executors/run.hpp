@@ -13,13 +13,13 @@
 #include "executors/source_parts.hpp"
 #include "executors/supported.hpp"
 #include "executors/threads/share_out.hpp"
+#include "labels/workspace_state.hpp"
 
 /// From sources of any kind to points, for every executor and domain. Who includes this has
 /// declared before, for its domains:
 ///
 ///   void solve_points(executor, domain, span of PointSource, options, workspace, field);
-namespace plexway {
-namespace detail {
+namespace plexway::detail {
 
 /// Takes the distances from one more ball into the field.
 template <class Real>
@@ -99,7 +99,9 @@ void run_parts(const E& executor, const D& domain, std::span<const Source> sourc
   }
 }
 
-}  // namespace detail
+}  // namespace plexway::detail
+
+namespace plexway {
 
 template <ExecutorType E, DomainType D>
 requires ExecutorSolves<E, D>
@@ -109,7 +111,8 @@ void solve(const E& executor, const D& domain, const SourceList& sources,
   detail::require_support(combination<E, D>(), domain.metric(), sources, options);
   if constexpr (E::kind == ExecutorKind::openmp)
     if (executor.ranks != nullptr)
-      check_same_work(*executor.ranks, domain, sources, options, executor.piece);
+      detail::check_same_work(*executor.ranks, domain, sources, options, executor.piece,
+                              workspace.state().pieces);
   field.error.clear();
   field.accuracy = Accuracy::fast();
   if (sources.only_points()) {
@@ -119,7 +122,9 @@ void solve(const E& executor, const D& domain, const SourceList& sources,
   detail::run_parts(executor, domain, sources.sources(), options, workspace, field);
 }
 
-namespace detail {
+}  // namespace plexway
+
+namespace plexway::detail {
 
 /// One source after the other.
 template <class E, class D>
@@ -162,7 +167,9 @@ bool run_rows_at_once(const OpenMP& executor, const D& domain, const SourceList&
   return complete;
 }
 
-}  // namespace detail
+}  // namespace plexway::detail
+
+namespace plexway {
 
 template <ExecutorType E, DomainType D>
 requires ExecutorSolves<E, D>

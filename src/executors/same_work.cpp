@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -16,104 +14,55 @@
 
 #include "complexes/common/kept_parts.hpp"
 #include "executors/threads/rank_mail.hpp"
-#include "file/checksum.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
-/// A number for a list of numbers.
-class Digest {
- public:
-  void add(std::uint64_t word) { words_.push_back(word); }
-  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
-  void add(const PointSource& point) {
-    add(std::uint64_t{point.vertex});
-    add(std::uint64_t{point.simplex});
-    if (point.vertex == none)
-      for (const double b : point.barycentric) add(b);
-    add(point.offset);
-  }
-  void add(const VertexSource& set) {
-    add(std::uint64_t{set.vertices.size()});
-    for (const Index v : set.vertices) add(std::uint64_t{v});
-    add(std::uint64_t{set.offsets.size()});
-    for (const double offset : set.offsets) add(offset);
-    add(set.offset);
-  }
-  void add(const BallSource& ball) {
-    add(ball.centre);
-    add(ball.radius);
-    add(ball.offset);
-  }
-  void add(const CurveSource& curve) {
-    add(std::uint64_t{curve.points.size()});
-    for (const PointSource& point : curve.points) add(point);
-    add(curve.offset);
-  }
-  void add(const SimplexSource& simplex) {
-    add(std::uint64_t{simplex.simplex});
-    add(simplex.offset);
-  }
-  [[nodiscard]] std::uint64_t value() {
-    add(std::uint64_t{words_.size()});
-    constexpr std::size_t in_block = file::Checksum::block / sizeof(std::uint64_t);
-    words_.resize((words_.size() + in_block - 1) / in_block * in_block);
-    const auto bytes = std::as_bytes(std::span(words_));
-    file::Checksum checksum;
-    checksum.add(bytes.data(), bytes.size());
-    return checksum.value();
-  }
-
- private:
-  std::vector<std::uint64_t> words_;
-};
+void put(KeptOut& out, const PointSource& point) {
+  out(point.vertex, point.simplex, point.offset);
+  if (point.vertex == none) out(point.barycentric);
+}
+void put(KeptOut& out, const VertexSource& set) { out(set.vertices, set.offsets, set.offset); }
+void put(KeptOut& out, const BallSource& ball) {
+  put(out, ball.centre);
+  out(ball.radius, ball.offset);
+}
+void put(KeptOut& out, const CurveSource& curve) {
+  out(curve.points.size(), curve.offset);
+  for (const PointSource& point : curve.points) put(out, point);
+}
+void put(KeptOut& out, const SimplexSource& simplex) { out(simplex.simplex, simplex.offset); }
 
 std::uint64_t digest_of(const SourceList& sources) {
-  Digest digest;
-  if (sources.only_points()) {
-    for (const PointSource& point : sources.points()) digest.add(point);
-  } else {
-    for (const Source& source : sources.sources()) {
-      digest.add(std::uint64_t{source.index()});
-      std::visit([&](const auto& one) { digest.add(one); }, source);
-    }
+  KeptOut out;
+  for (const PointSource& point : sources.points()) put(out, point);
+  for (const Source& source : sources.sources()) {
+    out(source.index());
+    std::visit([&](const auto& one) { put(out, one); }, source);
   }
-  return digest.value();
+  return out.checksum();
 }
 
 std::uint64_t digest_of(const PropagateOptions& options, std::size_t piece) {
-  Digest digest;
-  digest.add(static_cast<std::uint64_t>(options.accuracy.kind()));
-  digest.add(options.accuracy.error());
-  digest.add(static_cast<std::uint64_t>(options.visibility));
-  digest.add(static_cast<std::uint64_t>(options.schedule));
-  digest.add(options.step);
-  digest.add(options.radius);
-  digest.add(std::uint64_t{options.max_expansions});
-  digest.add(std::uint64_t{options.vectorised});
-  for (const double number : {options.probe.slender, options.probe.uneven, options.probe.low})
-    digest.add(number);
-  for (const double share : options.probe.share) digest.add(share);
-  digest.add(std::uint64_t{piece});
-  return digest.value();
+  KeptOut out;
+  const ProbeTable& probe = options.probe;
+  out(options.accuracy.kind(), options.accuracy.error(), options.visibility, options.schedule,
+      options.step, options.radius, options.max_expansions, options.vectorised, probe.slender,
+      probe.uneven, probe.low, probe.share, piece);
+  return out.checksum();
 }
 
 /// Of all that a complex is made of, where that can be kept and goes in pieces; else of its counts.
 template <class D>
-std::uint64_t digest_of(const D& domain) {
+std::uint64_t digest_of(const D& domain, [[maybe_unused]] PieceMemory& memory) {
   if constexpr (D::kind == DomainKind::surface || D::kind == DomainKind::solid) {
-    thread_local std::uint64_t identity = 0, digest = 0;
-    if (identity != domain.identity()) {
+    return memory.digest_of(domain, [&] {
       KeptOut nowhere;
       KeptParts::keep(nowhere, domain);
-      digest = nowhere.checksum();
-      identity = domain.identity();
-    }
-    return digest;
+      return nowhere.checksum();
+    });
   } else {
-    Digest digest;
-    digest.add(std::uint64_t{domain.vertex_count()});
-    return digest.value();
+    return domain.vertex_count();
   }
 }
 
@@ -142,20 +91,13 @@ template <class Row, class Read>
 std::uint64_t checksum_of(std::size_t begin, std::size_t end, const Read& read) {
   constexpr std::size_t batch = std::size_t{1} << 16;
   std::vector<Row> some;
-  std::vector<std::byte> bytes;
   std::uint64_t sum = 0;
   for (; begin < end; begin += some.size()) {
     some.resize(std::min(batch, end - begin));
     read(begin, std::span(some));
-    const auto rows = std::as_bytes(std::span(some));
-    const auto place = std::as_bytes(std::span(&begin, 1));
-    bytes.assign(place.begin(), place.end());
-    bytes.insert(bytes.end(), rows.begin(), rows.end());
-    bytes.resize((bytes.size() + file::Checksum::block - 1) / file::Checksum::block *
-                 file::Checksum::block);
-    file::Checksum checksum;
-    checksum.add(bytes.data(), bytes.size());
-    sum += checksum.value();
+    KeptOut out;
+    out(begin, some);
+    sum += out.checksum();
   }
   return sum;
 }
@@ -163,20 +105,17 @@ std::uint64_t checksum_of(std::size_t begin, std::size_t end, const Read& read) 
 }  // namespace
 
 void check_same_words(PieceRanks& ranks, std::span<const std::string> words, const char* what) {
-  Digest digest;
-  for (const std::string& word : words) {
-    digest.add(std::uint64_t{word.size()});
-    for (const char c : word) digest.add(std::uint64_t{static_cast<unsigned char>(c)});
-  }
-  const std::array own = {digest.value()};
+  KeptOut out;
+  for (const std::string& word : words) out(word);
+  const std::array own = {out.checksum()};
   const std::array names = {what};
   compare(ranks, own, names);
 }
 
 template <class D>
 void check_same_work(PieceRanks& ranks, const D& domain, const SourceList& sources,
-                     const PropagateOptions& options, std::size_t piece) {
-  const std::array own = {digest_of(domain), digest_of(sources), digest_of(options, piece)};
+                     const PropagateOptions& options, std::size_t piece, PieceMemory& memory) {
+  const std::array own = {digest_of(domain, memory), digest_of(sources), digest_of(options, piece)};
   constexpr std::array what = {"domain", "sources", "options"};
   compare(ranks, own, what);
 }
@@ -227,8 +166,8 @@ void check_same_rows(PieceRanks& ranks, const SurfaceRows& rows) {
 
 #define PLEXWAY_SAME_WORK(...)                                                      \
   template void check_same_work(PieceRanks&, const __VA_ARGS__&, const SourceList&, \
-                                const PropagateOptions&, std::size_t);
+                                const PropagateOptions&, std::size_t, PieceMemory&);
 PLEXWAY_DOMAINS(PLEXWAY_SAME_WORK)
 #undef PLEXWAY_SAME_WORK
 
-}  // namespace plexway
+}  // namespace plexway::detail

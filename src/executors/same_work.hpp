@@ -10,15 +10,17 @@
 #include <plexway/solve/options.hpp>
 #include <plexway/source/source_list.hpp>
 
-namespace plexway {
+#include "labels/piece_memory.hpp"
+
+namespace plexway::detail {
 
 /// Have all processes the same work? Those that solve one field together would else wait for each
 /// other without end, or make one of two. All call it, with what each has. Throws InputError where
 /// a domain differs, UsageError where sources or options do, in every process. Cost: a reduction,
-/// and reading the domain where it was not the one of the last call.
+/// and reading the domain where it is not the last one of `memory`.
 template <class D>
 void check_same_work(PieceRanks& ranks, const D& domain, const SourceList& sources,
-                     const PropagateOptions& options, std::size_t piece);
+                     const PropagateOptions& options, std::size_t piece, PieceMemory& memory);
 
 /// Likewise where the domain is in parts.
 void check_same_work(PieceRanks& ranks, const SourceList& sources, const PropagateOptions& options,
@@ -37,8 +39,8 @@ void check_same_rows(PieceRanks& ranks, const SurfaceRows& rows);
 
 #define PLEXWAY_SAME_WORK(...)                                                             \
   extern template void check_same_work(PieceRanks&, const __VA_ARGS__&, const SourceList&, \
-                                       const PropagateOptions&, std::size_t);
+                                       const PropagateOptions&, std::size_t, PieceMemory&);
 PLEXWAY_DOMAINS(PLEXWAY_SAME_WORK)
 #undef PLEXWAY_SAME_WORK
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -9,7 +9,9 @@
 #include <plexway/source/point_source.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
-namespace plexway {
+#include "complexes/common/vertices_outside.hpp"
+
+namespace plexway::detail {
 
 /// Weights of a simplex's corners: barycentric coordinates.
 using Weights = std::array<double, 4>;
@@ -19,9 +21,7 @@ using Weights = std::array<double, 4>;
 template <class Complex>
 class SimplexNumbers {
  public:
-  explicit SimplexNumbers(const Complex& complex) : vertex_(complex.vertex_count()) {
-    const auto inside = complex.vertices_inside();
-    for (Index v = 0; v < inside.size(); ++v) vertex_[inside[v]] = v;
+  explicit SimplexNumbers(const Complex& complex) : vertex_(vertices_outside(complex)) {
     list(complex);
   }
 
@@ -67,4 +67,4 @@ class SimplexNumbers {
   std::size_t first_ = 1;  // of the two corners that are exchanged where it is turned
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -7,6 +7,7 @@
 #include "strings/flat_strings.hpp"
 
 namespace plexway {
+using namespace detail;
 
 PLEXWAY_ELSEWHERE(Serial, TriangleMesh<double>)
 PLEXWAY_ELSEWHERE(Serial, TetMesh<double>)
@@ -52,7 +53,7 @@ void solve_points(const E& executor, const SimplicialComplex<Real, N>& domain,
       }
       return;
     }
-  detail::solve_simplices(executor, domain, sources, options, workspace, field);
+  solve_simplices(executor, domain, sources, options, workspace, field);
 }
 
 PLEXWAY_SIMPLICES(PLEXWAY_COMPILE_HERE)

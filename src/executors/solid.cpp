@@ -5,9 +5,11 @@
 #include "executors/run.hpp"
 #include "executors/solve_simplices.hpp"
 #include "executors/supported.hpp"
+#include "executors/threads/share_strings.hpp"
 #include "strings/solid_strings.hpp"
 
 namespace plexway {
+using namespace detail;
 
 template <class E, class Real>
 void solve_points(const E& executor, const TetMesh<Real>& mesh,
@@ -15,15 +17,17 @@ void solve_points(const E& executor, const TetMesh<Real>& mesh,
                   Workspace<Real>& kept, DistanceField<Real>& field) {
   WorkspaceState<Real>& workspace = kept.state();
   check(sources, options, mesh);
-  const Accuracy accuracy = resolved(
-      options.accuracy, detail::with(combination<E, TetMesh<Real>>(), mesh.metric(), options));
+  const Accuracy accuracy =
+      resolved(options.accuracy, with(combination<E, TetMesh<Real>>(), mesh.metric(), options));
   if (accuracy != Accuracy::fast()) {
     if (!workspace.strings) workspace.strings = std::make_shared<SolidStrings>();
-    workspace.strings->solve(mesh, sources, options, field);
+    share_strings(executor, mesh.vertex_count(), [&](const strings::Threads& threads) {
+      workspace.strings->solve(mesh, sources, options, threads, field);
+    });
     return;
   }
   workspace.pieces.counts().start();
-  detail::solve_simplices(executor, mesh, sources, options, workspace, field);
+  solve_simplices(executor, mesh, sources, options, workspace, field);
   workspace.pieces.counts().tell(field.statistics);
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -18,7 +17,7 @@
 #include "labels/workspace_state.hpp"
 #include "strings/solid_strings.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 template <class Complex>
 class Growth;
@@ -139,14 +138,16 @@ class Growth<TetMesh<Real>> {
   [[nodiscard]] Real measure(Index t) const {
     const Index* v = corners_of(t);
     const auto p = mesh_.points();
-    return dot(p[v[1]] - p[v[0]], cross(p[v[2]] - p[v[0]], p[v[3]] - p[v[0]])) / 6;
+    return static_cast<Real>(dot(p[v[1]] - p[v[0]], cross(p[v[2]] - p[v[0]], p[v[3]] - p[v[0]])) /
+                             6);
   }
   /// Of any point of the tetrahedron from its centre, at most.
-  [[nodiscard]] Real size(Index t) const {
-    Real longest = 0;
+  [[nodiscard]] Real size(Index t) {
+    const Point centre = position(t, {.25, .25, .25, .25});
+    double longest = 0;
     for (std::size_t i = 0; i < 4; ++i)
-      longest = std::max(longest, norm(mesh_.points()[corners_of(t)[i]] - mesh_.tets()[t].centre));
-    return longest;
+      longest = std::max(longest, norm(mesh_.points()[corners_of(t)[i]] - centre));
+    return static_cast<Real>(longest);
   }
   [[nodiscard]] const Index* corners_of(Index t) const { return mesh_.tets()[t].corner; }
   [[nodiscard]] Index corner_at(Index vertex) const {
@@ -332,4 +333,4 @@ class Growth<TetMesh<Real>> {
   Index turn_ = 0;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <span>
-#include <utility>
 
-#include "executors/checks.hpp"
 #include "executors/threads/team.hpp"
 #include "labels/alone.hpp"
 #include "labels/finish.hpp"

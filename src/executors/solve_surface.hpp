@@ -4,7 +4,6 @@
 #include <limits>
 #include <span>
 #include <type_traits>
-#include <utility>
 
 #include "labels/finish.hpp"
 #include "labels/plain_rule.hpp"
@@ -15,6 +14,7 @@
 
 /// A solve on a surface, for any scheduler.
 namespace plexway::surface {
+using namespace detail;
 
 /// The sources themselves, exactly, and the corners of triangles they lie in. `numbers`: which they
 /// are, ascending; empty for all.
@@ -102,7 +102,7 @@ void solve_with(const TriangleMesh<Real>& mesh, std::span<const PointSource> sou
     const SaddleRule<Real, decltype(wave)> rule(mesh.triangles(), wave, options.vectorised);
     solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, scheduler, field);
   } else {
-    auto wave = front(workspace.plain.reserve(records));
+    auto wave = front(workspace.simplex.template reserve<2>(records));
     const PlainRule<Real, decltype(wave)> rule(mesh.triangles(), wave, options.visibility,
                                                options.probe);
     solve<Real, kLabels>(mesh, sources, options, workspace, rule, wave, scheduler, field);

@@ -1,9 +1,7 @@
 #include "executors/source_parts.hpp"
 
 #include <cmath>
-#include <cstdint>
 #include <string>
-#include <vector>
 
 #include <plexway/error.hpp>
 

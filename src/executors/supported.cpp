@@ -21,6 +21,7 @@ Combination with(Combination what, const PropagateOptions& options) {
 }
 
 namespace detail {
+
 namespace {
 
 SourceKind kind_of(const PointSource& source) {
@@ -70,4 +71,5 @@ void check_rows(std::size_t room, std::size_t sources, std::size_t vertices) {
 }
 
 }  // namespace detail
+
 }  // namespace plexway

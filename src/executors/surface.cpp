@@ -4,14 +4,49 @@
 
 #include "executors/checks.hpp"
 #include "executors/curve_sources.hpp"
-#include "executors/drive.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_surface.hpp"
 #include "executors/supported.hpp"
+#include "executors/threads/piece_scheduler.hpp"
+#include "executors/threads/scheduler.hpp"
 #include "executors/threads/window_scheduler.hpp"
+#include "labels/alone.hpp"
+#include "labels/finish.hpp"
+#include "labels/front.hpp"
 #include "windows/window_solver.hpp"
 
 namespace plexway {
+using namespace detail;
+namespace {
+
+// What an executor brings to a solve on a surface: a queue for the serial parts, and a scheduler.
+
+/// A queue of its own for each order: the loop is short.
+template <bool kLabels, class Real, class Solve>
+void drive(const Serial&, const TriangleMesh<Real>& mesh, const PropagateOptions& options,
+           WorkspaceState<Real>& workspace, const Solve& solve) {
+  workspace.front.reserve(mesh.face_count());
+  with_queue<Real>(options, workspace.front, [&](auto queue) { solve(queue, Alone{}); });
+}
+
+/// By pieces: a single one is the serial loop.
+template <bool kLabels, class Real, class Solve>
+void drive(const OpenMP& executor, const TriangleMesh<Real>& mesh, const PropagateOptions& options,
+           WorkspaceState<Real>& workspace, const Solve& solve) {
+  const Team team(executor);
+  const PieceSettings settings = {.size = piece_size(executor, mesh.face_count())};
+  if (is_one_piece(settings.size, mesh.face_count())) {
+    drive<kLabels>(Serial{}, mesh, options, workspace, solve);
+    return;
+  }
+  workspace.front.reserve(mesh.face_count());
+  const DualQueue<Real> queue(workspace.front, std::numeric_limits<Real>::infinity());
+  const TeamScheduler<Real> scheduler(team, workspace, step_of<Real>(options), mesh.unit(),
+                                      options);
+  team.hold([&] { solve(queue, PieceScheduler<Real, kLabels>(scheduler, mesh, settings)); });
+}
+
+}  // namespace
 
 template <class E, class Real>
 void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
@@ -19,9 +54,9 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
                   Workspace<Real>& kept, DistanceField<Real>& field) {
   WorkspaceState<Real>& workspace = kept.state();
   check(sources, options, mesh);
-  const Accuracy accuracy = resolved(
-      options.accuracy,
-      detail::with(combination<E, TriangleMesh<Real>>(SourceKind::point), mesh.metric(), options));
+  const Accuracy accuracy =
+      resolved(options.accuracy,
+               with(combination<E, TriangleMesh<Real>>(SourceKind::point), mesh.metric(), options));
   const bool by_windows = accuracy.kind() != Accuracy::Kind::fast;
   SuperstepCounts& counts = workspace.pieces.counts();
   counts.start();
@@ -42,11 +77,10 @@ void solve_points(const E& executor, const TriangleMesh<Real>& mesh,
   }
   with_labels(sources, [&](auto labels) {
     constexpr bool kLabels = decltype(labels)::value;
-    drive<kLabels>(executor, mesh, sources, options, workspace,
-                   [&](auto queue, const auto& scheduler) {
-                     surface::solve_with<Real, kLabels>(mesh, sources, options, workspace, queue,
-                                                        scheduler, field);
-                   });
+    drive<kLabels>(executor, mesh, options, workspace, [&](auto queue, const auto& scheduler) {
+      surface::solve_with<Real, kLabels>(mesh, sources, options, workspace, queue, scheduler,
+                                         field);
+    });
   });
   field.statistics.windows_gave_up = by_windows;
   counts.tell(field.statistics);

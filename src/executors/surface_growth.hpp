@@ -20,7 +20,7 @@
 #include "labels/wavefront.hpp"
 #include "labels/workspace_state.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 template <class Complex>
 class Growth;
@@ -262,4 +262,4 @@ class Growth<TriangleMesh<Real>> {
   PropagateStatistics totals_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

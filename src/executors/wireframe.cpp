@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <limits>
 #include <span>
-#include <type_traits>
 #include <vector>
 
 #include "executors/checks.hpp"
@@ -21,14 +20,15 @@
 #include "labels/wireframe/wire_spread.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
-template <class Real, class Step, bool kLabels>
+template <class Real, bool kLabels>
 void solve_alone(const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
                  const PropagateOptions& options, WorkspaceState<Real>& workspace,
                  DistanceField<Real>& field) {
   start_wires<kLabels>(wireframe, workspace);
-  WirePropagation<Real, Step, kLabels> propagation(wireframe, workspace, options);
+  WirePropagation<Real, kLabels> propagation(wireframe, workspace, options);
   workspace.front.reserve(wireframe.vertex_count());
   propagation.run(workspace.front, [&](auto& front) {
     for (std::size_t n = 0; n < sources.size(); ++n)
@@ -66,10 +66,10 @@ bool pays(const Wireframe<Real>& wireframe, const RangeCut& cut) {
 }
 
 /// The labels of other processes' vertices, and ours to them. Returns the bytes sent.
-template <bool kLabels, class Propagation>
-std::size_t share_labels(PieceRanks* ranks, const RangeCut& cut, const Propagation& propagation) {
-  const auto own = [&cut](auto* of, std::size_t p) {
-    return std::span(of + cut.begin(p), of + cut.end(p));
+template <bool kLabels, class Real>
+std::size_t share_labels(PieceRanks* ranks, const RangeCut& cut, WorkspaceState<Real>& workspace) {
+  const auto own = [&cut](auto& of, std::size_t p) {
+    return std::span(of).subspan(cut.begin(p), cut.end(p) - cut.begin(p));
   };
   return share_pieces(
       ranks, cut.cut.pieces.size(),
@@ -77,23 +77,23 @@ std::size_t share_labels(PieceRanks* ranks, const RangeCut& cut, const Propagati
         const auto add = [&parcel](auto values) {
           parcel.add(std::span<const typename decltype(values)::element_type>(values));
         };
-        add(own(propagation.labels(), p));
-        if constexpr (kLabels) add(own(propagation.sources(), p));
+        add(own(workspace.vertex, p));
+        if constexpr (kLabels) add(own(workspace.vertex_source, p));
       },
       [&](std::size_t p, Unpacked mail) {
-        mail.take(own(propagation.labels(), p));
-        if constexpr (kLabels) mail.take(own(propagation.sources(), p));
+        mail.take(own(workspace.vertex, p));
+        if constexpr (kLabels) mail.take(own(workspace.vertex_source, p));
       });
 }
 
-template <class Real, class Step, bool kLabels>
+template <class Real, bool kLabels>
 void solve_in_pieces(const Team& team, const Wireframe<Real>& wireframe,
                      std::span<const PointSource> sources, const PropagateOptions& options,
                      WorkspaceState<Real>& workspace, WirePieces<Real>& kept,
                      DistanceField<Real>& field) {
-  using Piece = WirePiece<Real, Step, kLabels>;
+  using Piece = WirePiece<Real, kLabels>;
   start_wires<kLabels>(wireframe, workspace);
-  WirePropagation<Real, Step, kLabels> propagation(wireframe, workspace, options);
+  WirePropagation<Real, kLabels> propagation(wireframe, workspace, options);
   Seeds<Real> seeds;
   for (std::size_t i = 0; i < sources.size(); ++i)
     propagation.seed(sources[i], static_cast<Index>(i), seeds);
@@ -104,7 +104,7 @@ void solve_in_pieces(const Team& team, const Wireframe<Real>& wireframe,
   OurPieces<Piece> pieces(deal);
   deal.each(kept.rooms.size(), [&](std::size_t p) {
     const std::size_t arcs = wireframe.begin()[cut.end(p)] - wireframe.begin()[cut.begin(p)];
-    pieces.add(kept, static_cast<Index>(p), propagation.labels(), propagation.spread(), step,
+    pieces.add(kept, static_cast<Index>(p), workspace.vertex.data(), propagation.spread(), step,
                options.schedule == Schedule::fifo ? std::numeric_limits<std::size_t>::max()
                                                   : wire_patience * arcs);
   });
@@ -116,27 +116,16 @@ void solve_in_pieces(const Team& team, const Wireframe<Real>& wireframe,
   const bool complete =
       supersteps.run(propagation.statistics(), [](std::size_t, std::size_t) { return true; });
   propagation.account(supersteps.statistics(), !complete);
-  workspace.pieces.counts().sent += share_labels<kLabels>(team.ranks(), cut, propagation);
+  workspace.pieces.counts().sent += share_labels<kLabels>(team.ranks(), cut, workspace);
   propagation.read_out(sources, team, field);
-}
-
-/// Calls solve(step, labels) with the step that is wanted, and whether vertices have labels.
-template <class Real, class Solve>
-void with_step(std::span<const PointSource> sources, const PropagateOptions& options,
-               const Solve& solve) {
-  const auto with_labels = [&](auto step) {
-    sources.size() > 1 ? solve(step, std::true_type{}) : solve(step, std::false_type{});
-  };
-  options.vectorised ? with_labels(WireStep<Real>{}) : with_labels(KernelWireStep<Real>{});
 }
 
 template <class Real>
 void solve_on(const Serial&, const Wireframe<Real>& wireframe, std::span<const PointSource> sources,
               const PropagateOptions& options, WorkspaceState<Real>& workspace,
               DistanceField<Real>& field) {
-  with_step<Real>(sources, options, [&](auto step, auto labels) {
-    solve_alone<Real, decltype(step), decltype(labels)::value>(wireframe, sources, options,
-                                                               workspace, field);
+  with_labels(sources, [&](auto labels) {
+    solve_alone<Real, decltype(labels)::value>(wireframe, sources, options, workspace, field);
   });
 }
 
@@ -153,9 +142,9 @@ void solve_on(const OpenMP& executor, const Wireframe<Real>& wireframe,
   auto& pieces = workspace.pieces.template of<WirePieces<Real>>(wireframe, size, team.deal());
   if (executor.piece == 0 && !pays(wireframe, pieces.cut)) return alone();
   team.hold([&] {
-    with_step<Real>(sources, options, [&](auto step, auto labels) {
-      solve_in_pieces<Real, decltype(step), decltype(labels)::value>(
-          team, wireframe, sources, options, workspace, pieces, field);
+    with_labels(sources, [&](auto labels) {
+      solve_in_pieces<Real, decltype(labels)::value>(team, wireframe, sources, options, workspace,
+                                                     pieces, field);
     });
   });
   workspace.pieces.counts().tell(field.statistics);

@@ -8,7 +8,7 @@
 
 #include <plexway/error.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 void Splits::halve(Index simplex, std::size_t i, std::size_t j) {
   const Index split = static_cast<Index>(splits_.size());
@@ -152,4 +152,4 @@ void Bisection<N>::bisect(Index edge) {
 template class Bisection<2>;
 template class Bisection<3>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -15,7 +15,7 @@
 
 #include "executors/simplex_numbers.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Of 300 bytes each.
 inline constexpr std::size_t most_parts = none >> 6;
@@ -138,4 +138,4 @@ Weights place_in(std::span<const std::pair<Index, Index>> halved, std::size_t gi
 extern template class Bisection<2>;
 extern template class Bisection<3>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

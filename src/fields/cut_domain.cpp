@@ -1,14 +1,13 @@
 #include "fields/cut_domain.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
 #include "paths/simplex_places.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 std::array<double, 3> middle(const std::array<double, 3>& a, const std::array<double, 3>& b) {
@@ -48,7 +47,7 @@ class Limits {
 
 template <class Real>
 double length_of(const TetMesh<Real>& mesh, Index v, Index w) {
-  return static_cast<double>(norm(mesh.points()[v] - mesh.points()[w]));
+  return norm(mesh.points()[v] - mesh.points()[w]);
 }
 
 /// Is no edge longer than the limits of its ends? Most of the time nothing is near any limit.
@@ -280,4 +279,4 @@ template CutDomain<TetMesh<float>> cut(const TetMesh<float>&, std::span<const do
 template CutDomain<TetMesh<double>> cut(const TetMesh<double>&, std::span<const double>,
                                         std::size_t, const Near*);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -14,7 +14,7 @@
 #include "complexes/common/box_tree.hpp"
 #include "fields/bisection.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A domain whose edges are no longer than requested: itself, or a copy of all or of a part of it,
 /// cut into smaller simplices. Numbers are those inside.
@@ -65,4 +65,4 @@ template <class Complex>
 CutDomain<Complex> cut(const Complex& complex, std::span<const double> limits,
                        std::size_t most = most_parts, const Near* near = nullptr);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -11,6 +11,7 @@
 #include "sampling/random.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 constexpr double worst = -std::numeric_limits<double>::infinity();

@@ -7,6 +7,7 @@
 #include "fields/level_sets.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 constexpr unsigned most_parts_of_edge = 16;
@@ -57,10 +58,10 @@ std::array<double, 4> shares(const std::array<std::uint8_t, 3>& weights, unsigne
 
 }  // namespace
 
-FineField fine_field(std::span<const std::array<double, 3>> positions,
-                     std::span<const std::array<Index, 3>> faces, std::span<const double> distance,
-                     const DistanceInside& at, const FineOptions& options) {
-  check_level_sets(positions.size(), faces, distance, options.values, "face", "isoline");
+FineField fine_field(const GivenPoints& positions, const GivenSimplices<3>& faces,
+                     const Given<double>& distance, const DistanceInside& at,
+                     const FineOptions& options) {
+  check_level_sets(positions.size(), std::span(faces), distance, options.values, "face", "isoline");
   if (!(options.tolerance > 0)) throw UsageError("the tolerance of a fine field must be > 0");
   std::vector<double> values(options.values.begin(), options.values.end());
   std::sort(values.begin(), values.end());

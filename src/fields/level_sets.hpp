@@ -9,7 +9,7 @@
 #include <plexway/common/ids.hpp>
 #include <plexway/error.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What isolines and isosurfaces ask of their input: UsageError, which calls a simplex and a level
 /// set so.
@@ -29,4 +29,4 @@ void check_level_sets(std::size_t positions, std::span<const std::array<Index, N
       throw UsageError("the value of an " + level_set + " must be a number");
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

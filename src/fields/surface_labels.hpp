@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include <plexway/surface/triangle_mesh.hpp>
 
@@ -12,7 +11,7 @@
 #include "paths/solved.hpp"
 #include "paths/vector2.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The labels a propagation left on a surface, as its rule reads them: a front that nothing waits
 /// in.
@@ -61,7 +60,7 @@ class SurfaceLabels {
       return {static_cast<double>(label.x[0]), -static_cast<double>(label.h[0])};
     }
     const double length = static_cast<double>(mesh_.triangles()[f].length[hinge(f)]);
-    const auto& label = solved_.workspace.plain.labels[f];
+    const auto& label = solved_.workspace.simplex.template labels<2>()[f];
     const double d0 = static_cast<double>(label.distance2[hinge(f)]);
     const double d1 = static_cast<double>(label.distance2[edge_after(hinge(f))]);
     const double x = length > 0 ? (d0 - d1 + length * length) / (2 * length) : 0;
@@ -102,9 +101,9 @@ class SurfaceLabels {
     // A bend at q itself is none.
     const auto elsewhere = [&](const Vector2& at) { return norm(at - q) > slack; };
     const auto in_plane = [](const Point& p) { return Vector2{p.x[0], -p.h}; };
-    if (detail::left_of<double>(from, limit[0], to) > 0 && elsewhere(in_plane(limit[0])))
+    if (left_of<double>(from, limit[0], to) > 0 && elsewhere(in_plane(limit[0])))
       from = limit[0];
-    else if (detail::left_of<double>(from, limit[1], to) < 0 && elsewhere(in_plane(limit[1])))
+    else if (left_of<double>(from, limit[1], to) < 0 && elsewhere(in_plane(limit[1])))
       from = limit[1];
     const double sum = from.h + to.h;
     const double crossing = sum > 0 ? (from.x[0] * to.h + to.x[0] * from.h) / sum : from.x[0];
@@ -122,7 +121,7 @@ class SurfaceLabels {
       LeftLabels<Real, SaddleLabel<Real>> left(w.marks, w.saddles.labels.get());
       return question(SaddleRule<Real, decltype(left)>(mesh_.triangles(), left, false));
     }
-    LeftLabels<Real, PlainLabel<Real>> left(w.marks, w.plain.labels.get());
+    LeftLabels<Real, SimplexLabel<Real, 2>> left(w.marks, w.simplex.template labels<2>());
     // Any table will do: it makes no offers, and so aims at nothing.
     return question(PlainRule<Real, decltype(left)>(mesh_.triangles(), left, solved_.visibility,
                                                     ProbeTable::learned()));
@@ -133,4 +132,4 @@ class SurfaceLabels {
   bool saddles_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
-#include <utility>
 
 #include "paths/infinity.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 using Kernel = kernel::SaddleKernel<double>;
@@ -69,7 +67,7 @@ double SurfaceReadOut<Real>::from_where_it_came(const Step& step, const Point& q
   const double straight = gap(label.source, there);
   for (int side = 0; side < 2; ++side) {
     const Point& limit = label.limit[side];
-    const double turn = detail::left_of<double>(label.source, limit, here);
+    const double turn = left_of<double>(label.source, limit, here);
     const double to_limit = gap(label.source, limit);
     if ((side == 0 ? turn > 0 : turn < 0) && to_limit < straight)
       return label.sigma + to_limit + gap(limit, there);
@@ -184,4 +182,4 @@ std::optional<std::array<double, 3>> SurfaceReadOut<Real>::towards(
 template class SurfaceReadOut<float>;
 template class SurfaceReadOut<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

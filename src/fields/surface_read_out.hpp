@@ -10,7 +10,7 @@
 #include "fields/window_read_out.hpp"
 #include "paths/solved.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Distances of points inside triangles, from the labels that Visibility::saddles left. Numbers and
 /// unit inside, arithmetic in double.
@@ -57,4 +57,4 @@ class SurfaceReadOut {
 extern template class SurfaceReadOut<float>;
 extern template class SurfaceReadOut<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -14,7 +14,7 @@
 #include "paths/strip.hpp"
 #include "windows/window_solver.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Distances inside triangles from the windows that a solve kept: all that entered a triangle are
 /// asked, its corners, and the sources in it. Numbers and unit inside.
@@ -109,4 +109,4 @@ class WindowReadOut {
   std::vector<std::pair<Index, Index>> within_;  ///< triangles with a source inside, and which
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <plexway/error.hpp>
 
@@ -98,19 +99,17 @@ FileBytes::FileBytes(const std::filesystem::path& name, std::size_t most) {
   if (keeps) kept_streams()[input.file.string()] = {bytes_, size_};
 }
 
-namespace {
-
 #if PLEXWAY_IO_ZLIB
-std::string unpacked(std::string_view bytes, const std::string& name) {
-  // Meshes pack to a fifth or a tenth; what packs to a hundredth is none.
-  const std::size_t room = (std::size_t{1} << 26) + 100 * bytes.size();
-  std::string out(std::min<std::size_t>(room, 4 * bytes.size() + 64), '\0');
+std::string inflated(std::string_view packed, Deflated how, std::size_t room,
+                     std::string_view name) {
+  std::string out(std::min<std::size_t>(room, 4 * packed.size() + 64), '\0');
   z_stream stream{};
-  if (inflateInit2(&stream, 15 + 16) != Z_OK) throw Error("zlib does not start");
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(std::min<std::size_t>(bytes.size(), 1U << 31));
+  if (inflateInit2(&stream, static_cast<int>(how)) != Z_OK) throw Error("zlib does not start");
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
   int state = Z_OK;
   while (state == Z_OK) {
+    stream.avail_in =
+        static_cast<uInt>(std::min<std::size_t>(packed.size() - stream.total_in, 1U << 31));
     if (stream.total_out == out.size()) out.resize(std::min(room, 2 * out.size()));
     stream.next_out = reinterpret_cast<Bytef*>(out.data() + stream.total_out);
     stream.avail_out =
@@ -119,18 +118,19 @@ std::string unpacked(std::string_view bytes, const std::string& name) {
   }
   out.resize(stream.total_out);
   inflateEnd(&stream);
-  if (state != Z_STREAM_END) throw InputError(name + ": does not unpack: it is cut off or no mesh");
+  if (state != Z_STREAM_END)
+    throw InputError(std::string(name) +
+                     ": does not unpack: it is cut off, broken or out of proportion");
   return out;
 }
 #else
-std::string unpacked(std::string_view, const std::string& name) {
-  throw NotBuiltError(name +
-                      ": this plexway unpacks no .gz: install zlib1g-dev and build it again, "
-                      "or unpack the file");
+std::string inflated(std::string_view, Deflated, std::size_t, std::string_view name) {
+  throw NotBuiltError(
+      std::string(name) +
+      ": is packed, and this plexway was built without zlib: install zlib1g-dev and "
+      "build it again, or save the file without compression");
 }
 #endif
-
-}  // namespace
 
 OpenedFile::OpenedFile(const std::filesystem::path& file) : name_(file.string()), input_(file) {
   if (input_.extension == ".gz") input_.extension = lower_extension(input_.file.stem());
@@ -143,7 +143,15 @@ OpenedFile::OpenedFile(const std::filesystem::path& file, std::string_view bytes
 
 std::string_view OpenedFile::bytes() const {
   if (!bytes_) bytes_ = file_.emplace(name_).view();
-  if (unpacked_.empty() && bytes_->starts_with("\x1F\x8B")) unpacked_ = unpacked(*bytes_, name_);
+  if (unpacked_.empty() && bytes_->starts_with("\x1F\x8B")) {
+    // Meshes pack to a fifth or a tenth; what packs to a hundredth is none.
+    const std::size_t room = (std::size_t{1} << 26) + 100 * bytes_->size();
+    std::string unpacked = inflated(*bytes_, Deflated::gzip, room, name_);
+    // What unpacks twice would be bounded by the larger bytes between.
+    if (unpacked.starts_with("PK\x03\x04") || unpacked.starts_with("DRACO"))
+      throw InputError(name_ + ": is gzip around what is already packed: unpack it with gunzip");
+    unpacked_ = std::move(unpacked);
+  }
   return unpacked_.empty() ? *bytes_ : unpacked_;
 }
 

@@ -30,6 +30,14 @@ class FileBytes {
   std::size_t size_ = 0;
 };
 
+/// How bytes are packed: with gzip's header, with zlib's, or alone as in zip archives.
+enum class Deflated { gzip = 15 + 16, zlib = 15, alone = -15 };
+
+/// Unpacks what comes to `room` bytes at most. Throws InputError "NAME: cause", and NotBuiltError
+/// without zlib.
+std::string inflated(std::string_view packed, Deflated how, std::size_t room,
+                     std::string_view name);
+
 /// A file to be read: its bytes, when they are requested, and unpacked where they are gzip's.
 class OpenedFile {
  public:
@@ -42,6 +50,8 @@ class OpenedFile {
   /// With its dot, in lower case, without .gz behind it.
   [[nodiscard]] const std::string& extension() const { return input_.extension; }
   [[nodiscard]] bool is_standard_input() const { return input_.standard_input; }
+  /// Bytes that were given, so that no file lies beside it.
+  [[nodiscard]] bool is_in_memory() const { return bytes_ && !file_; }
   /// Throws InputError as FileBytes, and NotBuiltError without zlib for what is packed.
   [[nodiscard]] std::string_view bytes() const;
 

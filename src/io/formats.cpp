@@ -18,7 +18,7 @@ using View = std::string_view;
 constexpr char gifti_tag[] = "<GIFTI", vtk_tag[] = "<VTKFile", freesurfer_magic[] = "\xFF\xFF\xFE",
                freesurfer_text[] = "#!ascii", medit_word[] = "MeshVersionFormatted",
                gmsh_sign[] = "$", vtk_line[] = "# vtk DataFile", gltf_magic[] = "glTF",
-               las_magic[] = "LASF";
+               las_magic[] = "LASF", zip_magic[] = "PK\x03\x04", draco_magic[] = "DRACO";
 template <const char* with>
 bool begins(View bytes) {
   return bytes.starts_with(with);
@@ -33,27 +33,44 @@ bool begins_off(View bytes) {
 bool begins_ply(View bytes) { return bytes.starts_with("ply\n") || bytes.starts_with("ply\r"); }
 bool begins_stl(View bytes) { return bytes.starts_with("solid ") || bytes.starts_with("solid\n"); }
 
-template <Triangles (*parse)(View, View)>
-Mixed surface_of(View bytes, View name) {
-  return mixed_of(parse(bytes, name));
+Mixed mixed_of(Mixed cells) { return cells; }
+Mixed mixed_of(Points points) {
+  return {std::move(points.positions), {}, {}, {}, std::move(points.report)};
+}
+template <auto parse>
+Mixed cells_of(const OpenedFile& file) {
+  return mixed_of(parse(file.bytes(), file.name()));
 }
 
-Mixed gltf_of(View bytes, View name) {
-  return parse_gltf(bytes, name, [&](const std::string& uri) {
+Mixed draco_of(const OpenedFile& file) { return parse_draco(file.bytes(), file.name()); }
+
+Mixed gltf_of(const OpenedFile& file) {
+  // Nothing lies beside bytes that are in memory.
+  if (file.is_in_memory()) return parse_gltf(file.bytes(), file.name());
+  return parse_gltf(file.bytes(), file.name(), [&](const std::string& uri) {
     // Beside it, as exporters write them, with nothing but letters to decode.
-    std::string file;
+    std::string other;
     for (std::size_t i = 0; i < uri.size(); ++i) {
       const bool coded = uri[i] == '%' && i + 2 < uri.size();
-      file += coded ? static_cast<char>(std::strtol(uri.substr(i + 1, 2).c_str(), nullptr, 16))
-                    : uri[i];
+      other += coded ? static_cast<char>(std::strtol(uri.substr(i + 1, 2).c_str(), nullptr, 16))
+                     : uri[i];
       if (coded) i += 2;
     }
-    if (file.find(':') != file.npos || file.starts_with('/') || file.find("..") != file.npos)
-      throw InputError(std::string(name) + ": has its numbers in " + quote(uri) +
+    if (other.find(':') != other.npos || other.starts_with('/') || other.find("..") != other.npos)
+      throw InputError(file.name() + ": has its numbers in " + quote(uri) +
                        ", which does not lie beside it");
-    const auto path = std::filesystem::path(name).parent_path() / file;
+    const auto path = std::filesystem::path(file.name()).parent_path() / other;
     return std::string(FileBytes(path).view());
   });
+}
+
+Mixed pair_of(const OpenedFile& file) {
+  if (file.is_in_memory())
+    throw InputError(file.name() +
+                     ": is one of two files, .node and .ele: give their name instead of bytes, "
+                     "or save them as one, such as .mesh or .vtu");
+  Tets both = read_node_ele(file.name());
+  return {std::move(both.positions), {}, {}, std::move(both.tets)};
 }
 
 constexpr unsigned bit(DomainKind kind) { return 1U << static_cast<unsigned>(kind); }
@@ -62,9 +79,9 @@ constexpr unsigned surface = bit(DomainKind::surface), solid = bit(DomainKind::s
                    any = surface | solid | wires | cloud;
 
 struct Row : Format {
-  Mixed (*cells)(View bytes, View name) = nullptr;
-  Points (*points)(View bytes, View name) = nullptr;
-  bool (*is_this)(View bytes) = nullptr;  ///< by its first bytes
+  Mixed (*cells)(const OpenedFile& file) = nullptr;
+  Points (*points)(View bytes, View name) = nullptr;  ///< with normals and numbers
+  bool (*is_this)(View bytes) = nullptr;              ///< by its first bytes
 };
 
 constexpr Row table[] = {
@@ -73,12 +90,12 @@ constexpr Row table[] = {
       "before "
       "their vertices; a backslash joins a line to the next",
       "every other statement; a fourth coordinate, colours"},
-     parse_obj},
+     cells_of<parse_obj>},
     {{".off", "Object File Format", FileReader::cells, surface,
       "ascii; `OFF` and its variants with `ST`, `C`, `N` in front, or no keyword at all; counts on "
       "the keyword's line or the next; the edge count may be missing",
       "normals, colours, edge count; binary OFF is refused"},
-     surface_of<parse_off>,
+     cells_of<parse_off>,
      nullptr,
      begins_off},
     {{".ply", "Stanford PLY", FileReader::cells, surface | wires | cloud,
@@ -87,71 +104,85 @@ constexpr Row table[] = {
       "any order; `face` and `tristrips` (-1 between strips) with `vertex_indices` or "
       "`vertex_index`, `edge` with `vertex1` and `vertex2`; of clouds `nx ny nz`",
       "all other elements and properties, lists too"},
-     parse_ply,
+     cells_of<parse_ply>,
      parse_ply_points,
      begins_ply},
     {{".stl", "STL", FileReader::cells, surface,
       "ascii and binary, several solids, polygons in ascii",
       "normals, attributes, names; bytes "
       "behind the last facet, with a note"},
-     surface_of<parse_stl>,
+     cells_of<parse_stl>,
      nullptr,
      begins_stl},
     {{".gii", "GIfTI (`.surf.gii`)", FileReader::cells, surface,
       "the first arrays of points and of triangles; ascii, base64, base64 of zlib; rows or columns "
       "first",
       "metadata, transforms to other spaces; data in other files is refused"},
-     surface_of<parse_gifti>,
+     cells_of<parse_gifti>,
      nullptr,
      has_early<gifti_tag>},
     {{".white .pial .inflated .sphere .orig .smoothwm", "FreeSurfer's triangles", FileReader::cells,
       surface, "binary, as behind `lh.` and `rh.`; files of any other name by their first bytes",
       "what stands behind the triangles"},
-     surface_of<parse_freesurfer>,
+     cells_of<parse_freesurfer>,
      nullptr,
      begins<freesurfer_magic>},
     {{"", "FreeSurfer's triangles as text", FileReader::cells, surface,
       "files that begin with `#!ascii`, such as `lh.pial.asc`", "the patch of each"},
-     surface_of<parse_freesurfer_ascii>,
+     cells_of<parse_freesurfer_ascii>,
      nullptr,
      begins<freesurfer_text>},
     {{".node .ele", "TetGen's pair", FileReader::cells, solid,
       "from either name; numbered from 0 or 1; 4 or 10 nodes a tetrahedron",
-      "attributes, markers, comments"}},
+      "attributes, markers, comments"},
+     pair_of},
     {{".mesh", "MEDIT", FileReader::cells, any,
       "ascii, of dimension 2 or 3; sections in any order; cells of first and second order",
       "references, normals, tangents, marks; `.meshb` is refused"},
-     parse_medit,
+     cells_of<parse_medit>,
      nullptr,
      begins<medit_word>},
     {{".msh", "Gmsh", FileReader::cells, any,
       "2.0 to 2.2 and 4.1, ascii and binary of either byte order; any node tags; entity blocks; "
       "comments and other sections anywhere",
       "all other sections; versions 1 and 4.0, and `$ParametricNodes`, are refused"},
-     parse_gmsh,
+     cells_of<parse_gmsh>,
      nullptr,
      begins<gmsh_sign>},
     {{".vtu .vtp", "VTK's XML, grids and polygons", FileReader::cells, any,
       "ascii, base64, appended raw and base64; either byte order; any number types; several "
       "pieces; compressed by zlib, LZ4 or LZMA; cells of any order",
       "fields"},
-     parse_vtu,
+     cells_of<parse_vtu>,
      nullptr,
      has_early<vtk_tag>},
     {{".vtk", "VTK's legacy files", FileReader::cells, any,
       "ascii and binary, up to 5.1, `UNSTRUCTURED_GRID` and `POLYDATA`; cells of any order",
       "fields"},
-     parse_vtk,
+     cells_of<parse_vtk>,
      nullptr,
      begins<vtk_line>},
     {{".glb .gltf", "glTF 2.0", FileReader::cells, surface | wires | cloud,
       "all meshes of the scene where its nodes put them: points, lines, triangles, strips, fans; "
-      "numbers in the file or in one beside it, quantized or sparse ones too",
-      "all attributes but `POSITION`; cameras, skins, morph targets; Draco and meshopt are "
-      "refused"},
+      "numbers in the file or in one beside it, quantized, sparse or packed by Draco too",
+      "all attributes but `POSITION`; cameras, skins, morph targets; meshopt is refused"},
      gltf_of,
      nullptr,
      begins<gltf_magic>},
+    {{".3mf", "3MF", FileReader::cells, surface,
+      "all objects of the build with their components, where transforms put them, from all models "
+      "in the archive; coordinates stay in the file's unit",
+      "materials, textures, metadata; beams, slices and supports, which are counted"},
+     cells_of<parse_three_mf>,
+     nullptr,
+     begins<zip_magic>},
+    {{".drc", "Draco", FileReader::cells, surface | cloud,
+      "bitstream 2.2 and 2.3: meshes (edgebreaker, sequential) and points (sequential, kd-tree); "
+      "corners at one place are one vertex",
+      "all other attributes, metadata"},
+     draco_of,
+     nullptr,
+     begins<draco_magic>},
     {{".edges", "list of edges", FileReader::edges, wires,
       "text, an edge a line: `a b` or `a b length`, vertices counted from 0; `vertices N` before",
       "blank lines, `#` and what follows it, lines that start with `%`"}},
@@ -160,13 +191,13 @@ constexpr Row table[] = {
       "too) names the columns `x`, `y`, `z` and maybe `nx`, `ny`, `nz`, in any order; without one "
       "there are three, or six with normals; a first line may say how many follow",
       "other columns; colours and intensities, with a note; blank lines, `#`, `%` and `//`"},
-     nullptr,
+     cells_of<parse_point_table>,
      parse_point_table},
     {{".las", "LAS", FileReader::points, cloud, "1.0 to 1.4, points of formats 0 to 10",
       "all but the coordinates; withheld points, so that `original` tells which are left; `.laz` "
       "is "
       "refused"},
-     nullptr,
+     cells_of<parse_las>,
      parse_las,
      begins<las_magic>},
     {{".pcd", "PCD, through PCL", FileReader::cloud, cloud, "ascii, binary, compressed",
@@ -191,17 +222,16 @@ bool has_extension(const Format& format, View extension) {
 }
 
 // What others read, and how it gets here.
-constexpr std::array<std::array<View, 3>, 10> others = {{
-    {".3mf", "PK\x03\x04", "save the surface as .stl, .ply or .glb, with MeshLab or a slicer"},
-    {".meshb", "", "save it as ascii .mesh, with 'transmesh' of libMeshb"},
-    {".laz", "", "unpack it, with 'pdal translate' or laszip"},
-    {".nii", "", "it holds voxels: save a surface of them as .gii, with FreeSurfer or 3D Slicer"},
-    {".mgz", "", "it holds voxels: save a surface of them as .gii, with FreeSurfer or 3D Slicer"},
-    {".dae", "", "save the surface as .stl, .ply or .glb, with Blender"},
-    {".fbx", "", "save the surface as .stl, .ply or .glb, with Blender"},
-    {".step", "", "save the surface as .stl, with FreeCAD, or mesh it with Gmsh"},
-    {".iges", "", "save the surface as .stl, with FreeCAD, or mesh it with Gmsh"},
-    {".e57", "", "save the points as .ply or .las, with CloudCompare or PDAL"},
+constexpr std::array<std::array<View, 2>, 9> others = {{
+    {".meshb", "save it as ascii .mesh, with 'transmesh' of libMeshb"},
+    {".laz", "unpack it, with 'pdal translate' or laszip"},
+    {".nii", "it holds voxels: save a surface of them as .gii, with FreeSurfer or 3D Slicer"},
+    {".mgz", "it holds voxels: save a surface of them as .gii, with FreeSurfer or 3D Slicer"},
+    {".dae", "save the surface as .stl, .ply or .glb, with Blender"},
+    {".fbx", "save the surface as .stl, .ply or .glb, with Blender"},
+    {".step", "save the surface as .stl, with FreeCAD, or mesh it with Gmsh"},
+    {".iges", "save the surface as .stl, with FreeCAD, or mesh it with Gmsh"},
+    {".e57", "save the points as .ply or .las, with CloudCompare or PDAL"},
 }};
 
 // None where it cannot be read, which is said only if its name says nothing.
@@ -217,8 +247,8 @@ View first_bytes(const OpenedFile& file) {
   const std::string &name = file.name(), &extension = file.extension();
   if (extension.empty() && file.is_standard_input())
     throw InputError(name + ": standard input has no extension: say what it is, as in ply:-");
-  for (const auto& [other, first, cure] : others)
-    if (extension == other || (!first.empty() && first_bytes(file).starts_with(first)))
+  for (const auto& [other, cure] : others)
+    if (extension == other)
       throw InputError(name + ": a " + std::string(other) + " is not read; " + std::string(cure));
   std::vector<View> known;
   for (const Format& format : table)
@@ -245,21 +275,11 @@ const Row& row_of(const OpenedFile& file) {
   refuse(file);
 }
 
-Mixed cells_of(const OpenedFile& file, const Row& row) {
-  if (row.cells != nullptr) return row.cells(file.bytes(), file.name());
-  Mixed cells;
-  if (row.extensions.starts_with(".node")) {
-    Tets both = read_node_ele(file.name());
-    cells.positions = std::move(both.positions);
-    cells.tets = std::move(both.tets);
-  } else if (row.points != nullptr) {
-    Points points = row.points(file.bytes(), file.name());
-    cells.positions = std::move(points.positions);
-    cells.report = std::move(points.report);
-  } else {
+Mixed cells_in(const OpenedFile& file) {
+  const Row& row = row_of(file);
+  if (row.cells == nullptr)
     throw InputError(file.name() + ": holds no lines, polygons or tetrahedra with coordinates");
-  }
-  return cells;
+  return row.cells(file);
 }
 
 }  // namespace
@@ -283,23 +303,18 @@ std::string known_formats() {
          extensions_of(DomainKind::simplices) + ", and .plexway, what is prepared";
 }
 
-Mixed read_cells(const std::filesystem::path& path) {
-  const OpenedFile file(path);
-  return cells_of(file, row_of(file));
-}
+Mixed read_cells(const std::filesystem::path& path) { return cells_in(OpenedFile(path)); }
 
 Mixed parse_cells(std::string_view bytes, const std::filesystem::path& name) {
-  const OpenedFile file(name, bytes);
-  return cells_of(file, row_of(file));
+  return cells_in(OpenedFile(name, bytes));
 }
 
 namespace {
 
 Points points_of(const OpenedFile& file) {
   refuse_pcd(file.extension(), file.name());
-  const Row& row = row_of(file);
-  if (row.points != nullptr) return row.points(file.bytes(), file.name());
-  Mixed cells = cells_of(file, row);
+  if (auto* const parse = row_of(file).points) return parse(file.bytes(), file.name());
+  Mixed cells = cells_in(file);
   if (cells.positions.empty()) throw InputError(file.name() + ": has no points");
   return {std::move(cells.positions), {}, {}, std::move(cells.report)};
 }
@@ -322,9 +337,8 @@ Tets read_tets(const std::filesystem::path& file) {
 
 Edges read_edges(const std::filesystem::path& path) {
   const OpenedFile file(path);
-  const Row& row = row_of(file);
-  return row.reader == FileReader::edges ? parse_edge_list(file.bytes(), file.name())
-                                         : edges_of(cells_of(file, row), file.name());
+  return row_of(file).reader == FileReader::edges ? parse_edge_list(file.bytes(), file.name())
+                                                  : edges_of(cells_in(file), file.name());
 }
 
 Regions read_regions(const std::filesystem::path& path) {

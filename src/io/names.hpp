@@ -8,6 +8,10 @@
 
 namespace plexway::io {
 
+/// Ascii letters in lower case.
+constexpr char lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
+std::string lower_case(std::string_view text);
+
 /// The extension of `file` with its dot, ascii letters in lower case; of "ply:-", standard output
 /// as a .ply, ".ply".
 std::string lower_extension(const std::filesystem::path& file);

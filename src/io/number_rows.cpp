@@ -26,9 +26,7 @@ std::vector<NumberRow> read_number_rows(const std::string& file, std::size_t lea
     std::string_view left = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(left.size() + 1, text.size()));
     ++line;
-    const auto fail = [&](const std::string& cause) {
-      throw InputError(file + ":" + std::to_string(line) + ": " + cause);
-    };
+    const auto fail = [&](const std::string& cause) { fail_at(file, line, cause); };
     NumberRow row{{}, line};
     left = left.substr(0, left.find('#'));
     for (;;) {
@@ -53,8 +51,11 @@ std::vector<NumberRow> read_number_rows(const std::string& file, std::size_t lea
   return rows;
 }
 
+void fail_at(const std::string& file, std::size_t line, const std::string& cause) {
+  throw InputError(file + ":" + std::to_string(line) + ": " + cause);
+}
 void fail_at(const std::string& file, const NumberRow& row, const std::string& cause) {
-  throw InputError(file + ":" + std::to_string(row.line) + ": " + cause);
+  fail_at(file, row.line, cause);
 }
 
 std::uint32_t vertex_in(const std::string& file, const NumberRow& row, std::size_t column,

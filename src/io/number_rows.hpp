@@ -20,6 +20,7 @@ std::vector<NumberRow> read_number_rows(const std::string& file, std::size_t lea
                                         std::size_t most, const std::string& what);
 
 /// Throws InputError "FILE:LINE: cause".
+[[noreturn]] void fail_at(const std::string& file, std::size_t line, const std::string& cause);
 [[noreturn]] void fail_at(const std::string& file, const NumberRow& row, const std::string& cause);
 
 /// The number in this column as one of `vertices` vertices. Throws InputError as above if it is

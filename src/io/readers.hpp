@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,17 @@ Triangles parse_off(std::string_view text, std::string_view name);
 Triangles parse_stl(std::string_view bytes, std::string_view name);
 /// The first arrays of points and of triangles. Transforms to other spaces are not applied.
 Triangles parse_gifti(std::string_view bytes, std::string_view name);
+/// 3MF: all items of its build, made of objects where transforms put them, in the file's unit.
+Triangles parse_three_mf(std::string_view bytes, std::string_view name);
+/// Where glTF's vertices are in what Draco packed.
+struct DracoPosition {
+  std::uint32_t id;  ///< of the attribute
+  bool normalized;   ///< whole numbers stand for -1 to 1, even if Draco does not know it
+};
+/// What Draco packed: triangles or points. Corners at one place become one vertex, which has the
+/// number of the first. With `position`, as a part of glTF, points stay as they are.
+Mixed parse_draco(std::string_view bytes, std::string_view name,
+                  const std::optional<DracoPosition>& position = {});
 /// FreeSurfer's binary surfaces of triangles, such as lh.white.
 Triangles parse_freesurfer(std::string_view bytes, std::string_view name);
 /// FreeSurfer's surfaces as text: "#!ascii", the counts, "x y z patch" and "a b c patch".

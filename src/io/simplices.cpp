@@ -105,8 +105,8 @@ Simplices parse_simplices(std::string_view text, std::string_view name) {
 }
 
 Simplices read_simplices(const std::filesystem::path& file) {
-  const FileBytes bytes(file);
-  return parse_simplices(bytes.view(), file.string());
+  const OpenedFile opened(file);
+  return parse_simplices(opened.bytes(), opened.name());
 }
 
 }  // namespace plexway::io

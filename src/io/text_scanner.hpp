@@ -43,8 +43,16 @@ class TextScanner {
         joins_lines_(backslash == Backslash::joins_lines) {
     if (first_line == 1) at_ += text.size() - without_mark(text).size();
     const std::size_t end = text.find_first_of("\r\n");
-    if (end != text.npos && text[end] == '\r' && (end + 1 == text.size() || text[end + 1] != '\n'))
+    if (first_line == 0)
+      newline_ = '\0';
+    else if (end != text.npos && text[end] == '\r' &&
+             (end + 1 == text.size() || text[end + 1] != '\n'))
       newline_ = '\r';
+  }
+
+  /// Of a value out of a file, which has no lines.
+  static TextScanner of_value(std::string_view text, std::string_view name) {
+    return {text, name, Backslash::ordinary, 0};
   }
 
   std::size_t line() const { return line_; }
@@ -53,7 +61,8 @@ class TextScanner {
   bool at_end() const { return at_ == end_; }
 
   [[noreturn]] void fail(const std::string& cause) const {
-    throw InputError(std::string(name_) + ":" + std::to_string(line_) + ": " + cause);
+    const std::string line = line_ == 0 ? "" : ":" + std::to_string(line_);
+    throw InputError(std::string(name_) + line + ": " + cause);
   }
 
   /// Moves to the next field of this line; false when there is none left.
@@ -106,9 +115,18 @@ class TextScanner {
     return true;
   }
 
+  /// Whether a number that from_chars calls out of range is one that rounds to zero.
+  static bool too_small(std::string_view digits) {
+    if (digits.starts_with('-')) digits.remove_prefix(1);
+    const auto exponent = digits.find_first_of("eE");
+    if (exponent != std::string_view::npos)
+      return exponent + 1 < digits.size() && digits[exponent + 1] == '-';
+    return digits.starts_with('0') || digits.starts_with('.');
+  }
+
   /// Takes a finite number; `what` names it in messages.
   double number(std::string_view what) {
-    if (!to_field()) fail("the line ends before " + std::string(what));
+    if (!to_field()) ends_before(what);
     const char* from = *at_ == '+' ? at_ + 1 : at_;
     double value = 0;
     auto [stop, error] = std::from_chars(from, end_, value);
@@ -134,13 +152,19 @@ class TextScanner {
     return place;
   }
 
+  /// All has been taken, or it is refused.
+  void finish() {
+    to_field();
+    if (!at_end()) fail("there is more: " + quote({at_, bytes_left()}));
+  }
+
   /// Goes back over the last `bytes`, all of them on this line.
   void back(std::size_t bytes) { at_ -= bytes; }
 
   /// Takes a whole number; `what` names it in messages. `also_ends` is a character that may
   /// follow it besides what ends a field.
   std::int64_t integer(std::string_view what, char also_ends = ' ') {
-    if (!to_field()) fail("the line ends before " + std::string(what));
+    if (!to_field()) ends_before(what);
     const char* from = *at_ == '+' ? at_ + 1 : at_;
     std::int64_t value = 0;
     const auto [stop, error] = std::from_chars(from, end_, value);
@@ -161,6 +185,11 @@ class TextScanner {
   }
 
  private:
+  [[noreturn]] void ends_before(std::string_view what) const {
+    fail(line_ == 0 ? std::string(what) + " is missing"
+                    : "the line ends before " + std::string(what));
+  }
+
   bool is_blank(char c) const {
     return c == ' ' || c == '\t' || c == '\v' || c == '\f' ||
            (c != newline_ && (c == '\r' || c == '\n'));
@@ -176,15 +205,6 @@ class TextScanner {
     const char* next = at + 1;
     if (next != end_ && *next == '\r' && newline_ != '\r') ++next;
     return next != end_ && *next == newline_ ? next + 1 : nullptr;
-  }
-
-  /// Whether a number that from_chars calls out of range is one that rounds to zero.
-  static bool too_small(std::string_view digits) {
-    if (digits.starts_with('-')) digits.remove_prefix(1);
-    const auto exponent = digits.find_first_of("eE");
-    if (exponent != std::string_view::npos)
-      return exponent + 1 < digits.size() && digits[exponent + 1] == '-';
-    return digits.starts_with('0') || digits.starts_with('.');
   }
 
   const char* at_;

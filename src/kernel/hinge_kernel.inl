@@ -19,10 +19,8 @@
 #define HINGE_PRECISE precise
 #define HINGE_INFINITY Real(uintBitsToFloat(0x7f800000u))
 #define select(condition, yes, no) ((condition) ? (yes) : (no))
-#ifndef HINGE_EPSILON
 #define HINGE_EPSILON Real(1.1920929e-7)
 #define HINGE_TINY Real(8.2718061e-25)
-#endif
 #endif
 
 HINGE_CONST int KX = K > 0 ? K : 1;                // coordinates; no array has length 0
@@ -38,7 +36,6 @@ struct HingePose {
   Real length2[KX];           // squared lengths of the edges from vertex 0
 };
 struct HingePoint { Real x[KX]; Real h; };
-struct HingeOffset { HingePoint point; Real r2; };     // see `offset`
 struct HingeCrossing { Real x[KX]; Real w; };          // the point x / w in the span of I
 struct HingeWeights { Real b[K + 1]; };                // barycentric coordinates, times w
 struct HingeBend { HingePoint point; Real walked; Real total; };  // b, |S b|, |S b| + |b q|
@@ -156,20 +153,7 @@ HINGE_FN Real behind(HINGE_IN(HingePose) hinge, HINGE_IN(HingePoint) S, HINGE_IN
   return d2 - level - Real(8) * HINGE_EPSILON * (d2 + level);
 }
 
-/// A vertex v of T, at squared distance qv2 from the probe q, when T has more than one dimension
-/// more than I: h is v's height along q's perpendicular (below 0 if away from q), r2 the rest.
-HINGE_FN HingeOffset offset(HINGE_IN(HingePose) hinge, HINGE_IN(HingePoint) q,
-                            HINGE_IN(HingePoint) v, Real qv2) {
-  HINGE_PRECISE HingeOffset o;
-  o.point = v;
-  HINGE_PRECISE Real twice = feet_squared(hinge, v, q) + v.h * v.h + q.h * q.h - qv2;
-  Real along = Real(0.5) * twice / max(q.h, HINGE_TINY);
-  o.point.h = select(q.h > HINGE_TINY, max(-v.h, min(along, v.h)), v.h);
-  o.r2 = v.h * v.h - o.point.h * o.point.h;
-  return o;
-}
-
-/// From the source to a point of T through the span of I; add r2 for an offset point.
+/// From the source to a point of T through the span of I.
 HINGE_FN Real distance_squared(HINGE_IN(HingePose) hinge, HINGE_IN(HingePoint) S,
                                HINGE_IN(HingePoint) v) {
   HINGE_PRECISE Real sum = feet_squared(hinge, S, v) + (S.h + v.h) * (S.h + v.h);

@@ -9,23 +9,13 @@
 #define HINGE_COLD [[nodiscard]] static inline
 #define HINGE_CONST static constexpr
 #define HINGE_IN(type) const type&
-#define HINGE_INOUT(type) type&
 // A text that reads a scene, such as a solid, is the body of a class that has it.
 #if defined(__GNUC__)
 #define HINGE_METHOD [[nodiscard, gnu::always_inline]] inline
-#define HINGE_FAST [[gnu::always_inline]] inline
-#define HINGE_LIKELY(condition) __builtin_expect(condition, 1)
-#define HINGE_RARE(condition) __builtin_expect(condition, 0)
 #else
 #define HINGE_METHOD [[nodiscard]] inline
-#define HINGE_FAST inline
-#define HINGE_LIKELY(condition) (condition)
-#define HINGE_RARE(condition) (condition)
 #endif
 #define HINGE_READS const
-#define HINGE_DO static inline
-// The bound of a loop that shader compilers must not unroll.
-#define HINGE_ROLLED(count) (count)
 // Relative rounding, and a square below which a length counts as zero: small enough for data in
 // any unit, large enough that no quotient by it overflows.
 #define HINGE_EPSILON Real(std::numeric_limits<Real>::epsilon())

@@ -3,14 +3,8 @@
 #undef HINGE_COLD
 #undef HINGE_CONST
 #undef HINGE_IN
-#undef HINGE_INOUT
 #undef HINGE_METHOD
-#undef HINGE_FAST
-#undef HINGE_LIKELY
-#undef HINGE_RARE
 #undef HINGE_READS
-#undef HINGE_DO
-#undef HINGE_ROLLED
 #undef HINGE_EPSILON
 #undef HINGE_TINY
 #undef HINGE_INFINITY

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Who does the work of a solve: one thread (scheduler.hpp: a team).
 struct Alone {
@@ -22,4 +22,4 @@ struct Alone {
   }
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -11,7 +11,7 @@
 #include <plexway/error.hpp>
 #include <plexway/source/source.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr double tolerance = 1e-9;  // of a triangle's size
@@ -234,4 +234,4 @@ PLEXWAY_CURVES_ON(float)
 PLEXWAY_CURVES_ON(double)
 #undef PLEXWAY_CURVES_ON
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -10,7 +10,7 @@
 #include <plexway/source/point_source.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A point of the plane of a triangle: corner 0 at the origin, edge 0 on the real axis, the rest
 /// above it.
@@ -66,4 +66,4 @@ bool runs_straight(const TriangleMesh<Real>& mesh, const CurvePiece& piece, cons
 template <class Real>
 std::size_t place_of(const TriangleRecord<Real>& t, const Plane& p);
 
-}  // namespace plexway
+}  // namespace plexway::detail

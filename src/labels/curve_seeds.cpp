@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr double far_away = 1e7;  // lengths of a line that its virtual source is behind it
@@ -179,4 +179,4 @@ void CurveSeeds::add_face(const TriangleMesh<double>& mesh, Index face, double o
   }
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

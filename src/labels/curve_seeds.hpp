@@ -13,7 +13,7 @@
 
 #include "labels/curve_pieces.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What curves and triangles on a surface seed labels with. Numbers and unit inside.
 ///
@@ -122,4 +122,4 @@ class CurveSeeds {
   std::vector<std::pair<Index, Index>> crossed_;  ///< triangle, number
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

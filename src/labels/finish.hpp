@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include <plexway/solve/distance_field.hpp>
 #include <plexway/solve/options.hpp>
@@ -13,7 +15,7 @@
 #include "labels/front.hpp"
 #include "labels/workspace_state.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Calls `solve` with the front that the options ask for.
 template <class Real, class Solve>
@@ -21,21 +23,27 @@ void with_queue(const PropagateOptions& options, FrontStorage& storage, Solve so
   if (options.schedule == Schedule::priority)
     solve(PriorityQueue<Real>(storage));
   else
-    solve(DualQueue<Real>(storage, options.schedule == Schedule::fifo
-                                       ? std::numeric_limits<Real>::infinity()
-                                       : static_cast<Real>(options.step)));
+    solve(DualQueue<Real>(storage, step_of<Real>(options)));
 }
 
 /// Likewise as one type.
 template <class Real>
 ChosenQueue<Real> queue_for(const PropagateOptions& options, FrontStorage& storage) {
-  const Real step = options.schedule == Schedule::fifo ? std::numeric_limits<Real>::infinity()
-                                                       : static_cast<Real>(options.step);
-  return {storage, step, options.schedule == Schedule::priority};
+  return {storage, step_of<Real>(options), options.schedule == Schedule::priority};
+}
+
+/// Calls `solve` with std::true_type where vertices have labels: from more than one source.
+template <class Solve>
+void with_labels(std::span<const PointSource> sources, const Solve& solve) {
+  if (sources.size() > 1)
+    solve(std::true_type{});
+  else
+    solve(std::false_type{});
 }
 
 /// From what was read out, in the numbers and the unit inside, to the caller's: nothing beyond the
-/// radius, +inf where unreached, a source's own offset to the last bit.
+/// radius, +inf where unreached, a source's own offset to the last bit. A distance below 0 is one
+/// that still waits in a wireframe.
 template <class Real, bool kLabels, class Complex, class Front, class Scheduler>
 void finish(const Complex& complex, std::span<const PointSource> sources,
             const PropagateOptions& options, const Front& front,
@@ -49,7 +57,7 @@ void finish(const Complex& complex, std::span<const PointSource> sources,
   field.label.resize(kLabels ? inside.size() : 0);
   scheduler.over(inside.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      const Real d = workspace.vertex[inside[v]] * unit;
+      const Real d = std::abs(workspace.vertex[inside[v]]) * unit;
       const bool in = d <= radius;
       field.distance[v] = in ? d : infinity;
       if constexpr (kLabels)
@@ -64,4 +72,4 @@ void finish(const Complex& complex, std::span<const PointSource> sources,
   field.statistics = front.statistics();
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -12,7 +12,7 @@
 #include <plexway/common/ids.hpp>
 #include <plexway/solve/options.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Room for so many simplices waiting at once, allocated once and touched only where used.
 struct FrontStorage {
@@ -202,4 +202,4 @@ Real step_of(const PropagateOptions& options, double edge = 1) {
                                             : static_cast<Real>(options.step * edge);
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

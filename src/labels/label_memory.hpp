@@ -11,7 +11,7 @@
 
 #include <plexway/common/ids.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Per simplex: reached in this propagation or an earlier one, waiting or not, and by which hinge
 /// the path came in. Two bytes, and nothing to clear between propagations: marks of earlier ones
@@ -96,4 +96,4 @@ class Room {
   std::size_t bytes_ = 0;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

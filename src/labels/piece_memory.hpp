@@ -9,12 +9,11 @@
 
 #include "complexes/partition/deal.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What the last solve by pieces was like, whatever the threads.
 struct SuperstepCounts {
   std::size_t supersteps = 0;
-  std::size_t runs = 0;      ///< of a piece in a superstep
   std::size_t messages = 0;  ///< labels sent to other pieces
   std::size_t bytes = 0;     ///< of messages
   std::size_t sent = 0;      ///< bytes from this process to others
@@ -40,6 +39,13 @@ class KeptPieces {
 /// What solves by several threads keep of the last domain. Nothing before the first.
 class PieceMemory {
  public:
+  /// The number that make() gives of this domain, whose processes compare it.
+  template <class Domain, class Make>
+  std::uint64_t digest_of(const Domain& domain, const Make& make) {
+    if (digested_ != domain.identity()) digest_ = make(), digested_ = domain.identity();
+    return digest_;
+  }
+
   /// The pieces of this domain: those of the last call, unless that was for another domain, size or
   /// deal. Made as Pieces(domain, size, deal): about `size` simplices each. Cost of new ones: about
   /// a solve's.
@@ -64,10 +70,10 @@ class PieceMemory {
 
  private:
   std::unique_ptr<KeptPieces> kept_;
-  std::uint64_t identity_ = 0;
+  std::uint64_t identity_ = 0, digested_ = 0, digest_ = 0;
   std::size_t size_ = 0;
   Deal deal_;
   SuperstepCounts counts_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

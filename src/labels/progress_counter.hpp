@@ -6,7 +6,7 @@
 #include <plexway/error.hpp>
 #include <plexway/solve/options.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Tells the caller, who must want to know. Throws Cancelled where that is the answer.
 inline void tell_progress(const PropagateOptions& options, const Progress& progress) {
@@ -19,9 +19,7 @@ class ProgressCounter {
   ProgressCounter(const PropagateOptions& options, std::size_t often)
       : options_(options), often_(often) {}
 
-  /// Counts from 0 again.
-  void restart() { reported_ = 0; }
-  /// After so many expansions since then; `progress()` is asked for only when it is told.
+  /// After so many expansions; `progress()` is asked for only when it is told.
   template <class Now>
   void count(std::size_t expansions, const Now& progress) {
     if (!options_.progress || expansions - reported_ < often_) return;
@@ -50,4 +48,4 @@ inline void check_end(std::size_t expansions, std::size_t simplices) {
                      "metric, or take double precision");
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

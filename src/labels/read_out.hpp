@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 
@@ -14,7 +13,7 @@
 #include "labels/surface/saddle_rule.hpp"
 #include "labels/workspace_state.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Calls offer(vertex, distance) for a source at a vertex, or for the corners of the triangle it
 /// lies in: inside numbers and unit, exact.
@@ -157,4 +156,4 @@ void read_out_around(const TriangleMesh<Real>& mesh, const Rule& rule, const Fro
   }
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

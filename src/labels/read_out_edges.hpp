@@ -9,7 +9,6 @@
 #include <memory>
 #include <mutex>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <plexway/surface/triangle_mesh.hpp>
@@ -17,7 +16,7 @@
 #include "labels/front.hpp"
 #include "labels/workspace_state.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What `read_out_edges` did.
 struct Lowered {
@@ -194,4 +193,4 @@ Lowered read_out_edges(const TriangleMesh<Real>& mesh, WorkspaceState<Real>& wor
                                        [](std::size_t f) { return f; });
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

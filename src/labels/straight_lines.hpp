@@ -17,13 +17,16 @@
 #include "complexes/common/box_tree.hpp"
 #include "labels/workspace_state.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Where a source lies in space, in units of the mean edge, and its offset.
 struct SourcePlace {
   std::array<double, 3> at{};
   double sigma = 0;
 };
+
+/// What is nearer than the straight line by more than this share of it is counted.
+inline constexpr double much_nearer = 1e-3;
 
 /// No path on a surface in space is shorter than the straight line: a distance that is can only be
 /// wrong, and gets the line's length, which is nearer to the truth. Where coordinates are not known
@@ -38,9 +41,9 @@ class StraightLines {
                 std::span<const SourcePlace> places)
       : positions_(positions), places_(places), count_(places.size()) {}
 
-  /// Raises what is below, by more than rounding. Returns how many were by more than 1e-4. Cost: 24
-  /// bytes read a vertex; and for one that is below the line to its own source, as rounding leaves
-  /// every other in the plane, the sources that lie about as near.
+  /// Raises what is below, by more than rounding. Returns how many were by more than `much_nearer`.
+  /// Cost: 24 bytes read a vertex; and for one that is below the line to its own source, as
+  /// rounding leaves every other in the plane, the sources that lie about as near.
   template <bool kLabels, class Scheduler>
   std::size_t raise(WorkspaceState<Real>& workspace, const Scheduler& scheduler) const {
     return raise<kLabels>(workspace, scheduler, workspace.vertex.size(),
@@ -66,7 +69,7 @@ class StraightLines {
         if (!line.longer_than(d, positions_[v])) [[likely]]
           continue;
         const double least = least_line(v, line);
-        some += static_cast<double>(d) < least * (1 - 1e-4);
+        some += static_cast<double>(d) < least * (1 - much_nearer);
         d = std::max(d, static_cast<Real>(least));
       }
       raised += some;
@@ -195,4 +198,4 @@ class StraightLines {
   mutable BoxTree<4> by_place_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

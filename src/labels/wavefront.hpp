@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 
 #include <plexway/solve/distance_field.hpp>
 #include <plexway/solve/options.hpp>
@@ -11,7 +10,7 @@
 #include "labels/label_memory.hpp"
 #include "labels/progress_counter.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The front of executors with one thread: labels, which simplices are reached, wait, and came in
 /// by which hinge. `Queue` orders the waiting ones. kLabels: carry the nearest source along.
@@ -186,4 +185,4 @@ class Wavefront {
   bool out_of_budget_ = false;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,6 +6,7 @@
 #include "strings/solid_strings.hpp"
 
 namespace plexway {
+using namespace detail;
 
 template <class Real>
 Workspace<Real>::Workspace() : state_(std::make_unique<WorkspaceState<Real>>()) {}

@@ -7,17 +7,17 @@
 #include <plexway/common/ids.hpp>
 #include <plexway/solve/distance_field.hpp>
 #include <plexway/solve/workspace.hpp>
+#include <plexway/source/point_source.hpp>
 
 #include "labels/front.hpp"
 #include "labels/label_memory.hpp"
 #include "labels/piece_memory.hpp"
-#include "labels/plain_label.hpp"
 #include "labels/simplicial/simplex_label.hpp"
 #include "labels/surface/lowering_rooms.hpp"
 #include "labels/surface/saddle_label.hpp"
 #include "windows/window_memory.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 class FlatStrings;
 class MixedStrings;
@@ -35,8 +35,7 @@ struct WorkspaceState {
   /// Which simplices have a label.
   VisitMarks marks;
   LabelStorage<SaddleLabel<Real>> saddles;  ///< Visibility::saddles
-  LabelStorage<PlainLabel<Real>> plain;     ///< the other policies
-  SimplexLabels<Real> simplex;              ///< SimplicialComplex
+  SimplexLabels<Real> simplex;              ///< the other policies, and of other domains
   std::vector<Index> source;                ///< nearest source a simplex; empty for one source
   WindowMemory<Real> windows;               ///< on surfaces: accuracies but `fast`
   /// The queues.
@@ -46,6 +45,7 @@ struct WorkspaceState {
   std::vector<Index> vertex_source;               ///< its labels
   std::shared_ptr<SolidStrings> strings;          ///< in solids: strings/solid_strings.hpp
   std::vector<Index> corners;                     ///< around one vertex
+  std::vector<PointSource> moved;                 ///< sources of a cloud, as its surface has them
   std::unique_ptr<LoweringRooms<Real>> lowering;  ///< read_out_edges
   std::vector<WorkspaceState> parts;              ///< on mixed domains: one a piece
   std::shared_ptr<MixedStrings> media;        ///< likewise, by strings: strings/mixed_strings.hpp
@@ -67,12 +67,11 @@ struct WorkspaceState {
     std::size_t of_parts = 0;
     for (const WorkspaceState& part : parts) of_parts += part.bytes();
     return of_parts + sizeof(*this) + marks.bytes() + saddles.count * sizeof(SaddleLabel<Real>) +
-           plain.count * sizeof(PlainLabel<Real>) + simplex.bytes() +
-           (flat ? flat->workspace.bytes() + of(flat->field.distance) : 0) + of(source) +
-           windows.bytes() + of(vertex) + of(vertex_source) + of(corners) +
+           simplex.bytes() + (flat ? flat->workspace.bytes() + of(flat->field.distance) : 0) +
+           of(source) + windows.bytes() + of(vertex) + of(vertex_source) + of(corners) + of(moved) +
            (lowering ? sizeof(*lowering) + lowering->bytes() : 0) +
            front.capacity * 2 * sizeof(Index) + of(front.heap) + pieces.bytes();
   }
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

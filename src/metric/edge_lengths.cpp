@@ -1,4 +1,4 @@
-#include <plexway/metric/edge_lengths.hpp>
+#include "metric/triangle_times.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -107,6 +107,15 @@ void agree(std::span<const std::array<Index, Corners>> simplices, const Agreemen
 }
 
 template <std::size_t Corners>
+void check_speeds(const std::vector<double>& speed, std::size_t simplices) {
+  check_count(speed.size(), simplices, "speeds", "simplices");
+  for (std::size_t s = 0; s < simplices; ++s)
+    if (!(speed[s] > 0) || !std::isfinite(speed[s]))
+      throw InputError(std::string(Ends<Corners>::simplex) + " " + std::to_string(s) +
+                       ": its speed is not a positive number");
+}
+
+template <std::size_t Corners>
 class Measure {
  public:
   using Simplices = std::span<const std::array<Index, Corners>>;
@@ -133,11 +142,7 @@ class Measure {
   }
 
   void operator()(const SimplexSpeeds& metric) {
-    check_count(metric.speed.size(), simplices_.size(), "speeds", "simplices");
-    for (std::size_t s = 0; s < metric.speed.size(); ++s)
-      if (!(metric.speed[s] > 0) || !std::isfinite(metric.speed[s]))
-        throw InputError(std::string(Ends<Corners>::simplex) + " " + std::to_string(s) +
-                         ": its speed is not a positive number");
+    check_speeds<Corners>(metric.speed, simplices_.size());
     each_edge([&](std::size_t s, Index a, Index b) {
       const Point d = step(positions_[a], positions_[b]);
       return std::hypot(d[0], d[1], d[2]) / metric.speed[s];
@@ -255,6 +260,17 @@ std::vector<std::array<double, 3>> triangle_lengths(std::span<const Point> posit
                                                     std::span<const std::array<Index, 3>> triangles,
                                                     const Metric& metric) {
   return measured<3>(positions, triangles, metric);
+}
+
+std::vector<std::array<double, 3>> triangle_times(std::span<const std::array<double, 3>> lengths,
+                                                  std::span<const std::array<Index, 3>> triangles,
+                                                  const SimplexSpeeds& metric) {
+  check_speeds<3>(metric.speed, triangles.size());
+  Rows<3> rows(lengths.begin(), lengths.end());
+  for (std::size_t s = 0; s < rows.size(); ++s)
+    for (double& length : rows[s]) length /= metric.speed[s];
+  agree<3>(triangles, metric.agreement, rows);
+  return rows;
 }
 
 std::vector<std::array<double, 6>> tet_lengths(std::span<const Point> positions,

@@ -13,6 +13,7 @@
 #include "paths/infinity.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 // Calls row(i, radius), which is to write row i as far as that, for all rows.

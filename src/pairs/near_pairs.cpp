@@ -2,7 +2,6 @@
 #include <cmath>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <plexway/pairs/all_pairs.hpp>
@@ -14,6 +13,7 @@
 #include "paths/infinity.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 /// Which columns a vertex is: none, one, or several.
@@ -104,7 +104,7 @@ class NearWorker {
   }
 
   bool by_windows(const PropagateOptions& options) const {
-    const auto cell = detail::with(combination<Serial, D>(), domain_.metric(), options);
+    const auto cell = with(combination<Serial, D>(), domain_.metric(), options);
     return resolved(options.accuracy, cell) != Accuracy::fast();
   }
 

@@ -1,16 +1,15 @@
 #include <plexway/paths/bounded_search.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
 #include <vector>
 
 #include <plexway/common/ids.hpp>
 #include <plexway/error.hpp>
 
+#include "complexes/common/vertices_outside.hpp"
 #include "executors/checks.hpp"
 #include "labels/finish.hpp"
+#include "labels/read_out.hpp"
 #include "labels/straight_lines.hpp"
 #include "labels/surface/saddle_rule.hpp"
 #include "labels/surface/triangle_propagation.hpp"
@@ -19,6 +18,7 @@
 #include "paths/infinity.hpp"
 
 namespace plexway {
+using namespace detail;
 
 namespace {
 
@@ -54,15 +54,14 @@ BoundedSearch<Real>::BoundedSearch(const TriangleMesh<Real>& mesh) : mesh_(&mesh
   workspace.vertex.resize(vertices);
   workspace.vertex_source.resize(vertices);
   stamp_.assign(vertices, 0);
-  outer_.resize(vertices);
-  for (std::size_t v = 0; v < vertices; ++v)
-    outer_[mesh.inside_vertex(static_cast<Index>(v))] = static_cast<Index>(v);
+  outer_ = vertices_outside(mesh);
 }
 
 template <class Real>
-const Surroundings<Real>& BoundedSearch<Real>::find(Serial, std::span<const PointSource> sources,
+const Surroundings<Real>& BoundedSearch<Real>::find(Serial, const SourceList& given,
                                                     const PropagateOptions& options,
                                                     bool simplices) {
+  const std::span<const PointSource> sources = points_of(Purpose::searches, given);
   check(sources, options, {mesh_->vertex_count(), mesh_->face_count(), "face", 3});
   support(Purpose::searches, *mesh_, options).require();
   with_queue<Real>(options, workspace_.state().front, [&](auto queue) {
@@ -137,25 +136,10 @@ void BoundedSearch<Real>::find_with(Queue queue, std::span<const PointSource> so
       offer(triangles[f].corner[i], rule.corner_distance(f, i), front.source(f));
       longest = std::max(longest, triangles[f].length[i]);
     }
-  for (std::size_t n = sources.size(); n-- > 0;) {
-    const Index number = static_cast<Index>(n);
-    const double sigma = sources[n].offset / mesh.unit();
-    if (sources[n].vertex != none) {
-      offer(mesh.inside_vertex(sources[n].vertex), static_cast<Real>(sigma), number, true);
-      continue;
-    }
-    const auto [f, turned] = mesh.inside_face(sources[n].simplex);
-    const TriangleRecord<Real>& t = triangles[f];
-    std::array<double, 4> b = sources[n].barycentric;
-    if (turned) std::swap(b[1], b[2]);
-    const double px[3] = {0, static_cast<double>(t.length[0]), static_cast<double>(t.apex_x(0))};
-    const double py[3] = {0, 0, static_cast<double>(t.apex_h(0))};
-    const double x = b[1] * px[1] + b[2] * px[2], y = b[2] * py[2];
-    for (std::size_t i = 0; i < 3; ++i)
-      offer(t.corner[i],
-            static_cast<Real>(b[i] == 1 ? sigma : sigma + std::hypot(px[i] - x, py[i] - y)), number,
-            true);
-  }
+  for (std::size_t n = sources.size(); n-- > 0;)
+    offer_source(mesh, sources[n], [&](Index v, double distance) {
+      offer(v, static_cast<Real>(distance), static_cast<Index>(n), true);
+    });
   const StraightLines<Real> lines(mesh, sources);
   for (const Index v : touched_) d[v] = lines.raised(v, d[v], label[v]);
   // Each pass lowers some distance to that of a path along edges; there are only so many.

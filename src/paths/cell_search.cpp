@@ -7,7 +7,7 @@
 
 #include "paths/infinity.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 double apart(const Point3& a, const Point3& b) {
@@ -268,4 +268,4 @@ std::optional<CellWay> search_cells(const Cells& all, const Corridor& corridor,
   return Search(all, {}, goals, 0, &corridor).find(start);
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

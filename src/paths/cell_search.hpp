@@ -11,7 +11,7 @@
 
 #include "paths/cell_string.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A point of a cell, or a vertex by its number in Cells.
 struct CellPoint {
@@ -60,4 +60,4 @@ std::optional<CellWay> search_cells(const Cells& all, std::span<const double> di
 std::optional<CellWay> search_cells(const Cells& all, const Corridor& corridor,
                                     std::span<const CellGoal> goals, const CellPoint& start);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 /// The crossings of a string as numbers that may vary: all coordinates on a face but the first.
@@ -292,4 +292,4 @@ void pull_taut(const Cells& all, CellString& string) {
   if (taut.length(all) < before) string = std::move(taut);
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,7 +6,7 @@
 
 #include "paths/cells.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Where a way goes from a cell into the next: a point of a face that both have.
 struct CellCrossing {
@@ -38,4 +38,4 @@ Point3 place_in(const Cell& cell, const std::array<double, 4>& at);
 /// longer than before. Cost: about 40 steps, linear in the cells.
 void pull_taut(const Cells& all, CellString& string);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -8,7 +8,7 @@
 #include "paths/cell_search.hpp"
 #include "paths/infinity.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 CellPoint in_cells(const Cells& all, const PointSource& point) {
@@ -316,7 +316,7 @@ Path trace_cells(const CellField& field, const PointSource& point) {
   const double promised =
       start.vertex != none ? distance[start.vertex] : by_corners(all, distance, start);
   constexpr double close = 3e-4, doubt = 1e-2;
-  constexpr int most_rounds = 1000;
+  const int most_rounds = all.only_edges() ? 0 : 1000;
   double whole = infinity;
   for (const std::size_t places : {2, 4, 8}) {
     auto way = search_cells(all, distance, goals, start, places);
@@ -336,4 +336,4 @@ Path trace_cells(const CellField& field, const PointSource& point) {
   return best;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

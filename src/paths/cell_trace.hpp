@@ -12,7 +12,7 @@
 
 #include "paths/cells.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What paths over cells need of a field.
 struct CellField {
@@ -45,4 +45,4 @@ Path trace_cells(const CellField& field, const PointSource& point);
 /// corner. +inf where unreachable.
 double read_cells(const CellField& field, const PointSource& point, ReadOut level);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
 #include "complexes/common/disjoint_sets.hpp"
 #include "complexes/common/fill_rows.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 // Corners of a simplex of a piece, vertices inside, in the caller's order.
@@ -68,8 +67,8 @@ void place(const TetMesh<Real>& mesh, Index simplex, std::array<Point3, 4>& at) 
   if (!mesh.embedded()) return place_by_lengths(mesh, simplex, at);
   const std::array<Index, 4> corner = four_corners(mesh, simplex);
   const auto point = [&](std::size_t i) {
-    const Vector3<Real>& p = mesh.points()[corner[i]];
-    return Point3{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+    const auto& [x, y, z] = mesh.points()[corner[i]];
+    return Point3{x, y, z};
   };
   const Point3 origin = point(0);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -231,4 +230,4 @@ std::array<Index, 4> ComplexCells<Real>::outer_corners(Index simplex) const {
 template class ComplexCells<float>;
 template class ComplexCells<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -11,7 +11,7 @@
 
 #include "complexes/common/point3.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A simplex of a mixed domain: an edge, a triangle or a tetrahedron, in a frame of its own.
 struct Cell {
@@ -76,6 +76,8 @@ class Cells {
   }
   /// The simplices that have all of a face; those at a vertex where it is one.
   void around(const CellFace& face, std::vector<Index>& simplices) const;
+  /// Are all simplices edges, so that ways meet at vertices alone?
+  [[nodiscard]] bool only_edges() const { return corner_.size() == 2 * (corner_begin_.size() - 1); }
   /// The corners of a simplex that has some.
   [[nodiscard]] std::span<const Index> corners(Index simplex) const;
   /// What two different simplices share. At most three vertices; only `at` where one is a wire.
@@ -113,4 +115,4 @@ class ComplexCells final : public Cells {
   Pieces pieces_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,8 +1,9 @@
 #include <plexway/paths/cloud_path_field.hpp>
 
 #include <cmath>
-#include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <plexway/error.hpp>
 
@@ -11,6 +12,7 @@
 #include "paths/surface_trace.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 /// Are the lengths of a sheet those between its places, as exact as `Real` has them?
@@ -32,18 +34,17 @@ bool measured_in_space(const TriangleMesh<Real>& sheet, std::span<const Index> o
 }  // namespace
 
 template <class Real>
-PathField<PointCloud<Real>>::PathField(const PointCloud<Real>& cloud,
-                                       std::span<const std::array<double, 3>> points)
-    : cloud_(&cloud), places_(points) {
-  if (!points.empty() && points.size() != cloud.point_count())
-    throw UsageError(std::to_string(points.size()) + " positions for " +
+PathField<PointCloud<Real>>::PathField(const PointCloud<Real>& cloud, GivenPoints points)
+    : cloud_(&cloud), places_(std::move(points)) {
+  if (!places_.empty() && places_.size() != cloud.point_count())
+    throw UsageError(std::to_string(places_.size()) + " positions for " +
                      std::to_string(cloud.point_count()) + " points: give one a point, or none");
-  outer_ = sheet_vertices(cloud);
-  if (points.empty()) return;
+  outer_ = vertices_outside(cloud.surface());
+  if (places_.empty()) return;
   if (!cloud.more_places().empty()) {
-    own_places_.assign(points.begin(), points.end());
-    own_places_.insert(own_places_.end(), cloud.more_places().begin(), cloud.more_places().end());
-    places_ = own_places_;
+    std::vector<std::array<double, 3>> all(places_.begin(), places_.end());
+    all.insert(all.end(), cloud.more_places().begin(), cloud.more_places().end());
+    places_ = std::move(all);
   }
   in_space_ = measured_in_space(cloud.surface(), outer_, places_);
 }
@@ -70,7 +71,7 @@ Path PathField<PointCloud<Real>>::trace(const PointSource& point,
   const Solved<Real> solved = {workspace_.state(),
                                more ? sheet_ : field_,
                                sources_,
-                               in_space_ ? places_ : Places(),
+                               in_space_ ? Places(places_) : Places(),
                                places_,
                                outer_,
                                {},
@@ -91,8 +92,8 @@ std::array<Index, 3> PathField<PointCloud<Real>>::corners(Index simplex) const {
 
 template <class Real>
 std::size_t PathField<PointCloud<Real>>::bytes() const {
-  return outer_.capacity() * sizeof(Index) + own_places_.capacity() * sizeof(places_[0]) +
-         workspace_.bytes() +
+  const std::size_t copied = cloud_->more_places().empty() ? 0 : places_.size();
+  return outer_.capacity() * sizeof(Index) + copied * sizeof(places_[0]) + workspace_.bytes() +
          (field_.distance.capacity() + sheet_.distance.capacity()) * sizeof(Real) +
          field_.label.capacity() * sizeof(Index) + sources_.capacity() * sizeof(PointSource);
 }

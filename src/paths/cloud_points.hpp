@@ -3,44 +3,18 @@
 #include <algorithm>
 #include <limits>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <plexway/cloud/point_cloud.hpp>
-#include <plexway/error.hpp>
 #include <plexway/source/point_source.hpp>
-#include <plexway/support.hpp>
 
-namespace plexway {
+#include "complexes/common/vertices_outside.hpp"
+#include "executors/cloud_field.hpp"
 
-/// Points of a cloud as vertices of its sheet: each is the first at its place. Throws UsageError
-/// for what is no point of the cloud.
-template <class Real>
-std::vector<PointSource> first_at_place(const PointCloud<Real>& cloud,
-                                        std::span<const PointSource> points) {
-  std::vector<PointSource> first(points.begin(), points.end());
-  for (PointSource& p : first) {
-    if (p.vertex == none)
-      support(combination<Serial, PointCloud<Real>>(SourceKind::point)).require();
-    if (p.vertex >= cloud.point_count())
-      throw UsageError("point " + std::to_string(p.vertex) + " is out of range, there are " +
-                       std::to_string(cloud.point_count()));
-    p.vertex = cloud.of_point(p.vertex);
-  }
-  return first;
-}
+namespace plexway::detail {
 
-/// The caller's number of each vertex of a cloud's sheet, by its number inside.
-template <class Real>
-std::vector<Index> sheet_vertices(const PointCloud<Real>& cloud) {
-  std::vector<Index> outer(cloud.surface().vertex_count());
-  const std::span<const Index> inside = cloud.surface().vertices_inside();
-  for (std::size_t v = 0; v < inside.size(); ++v) outer[inside[v]] = static_cast<Index>(v);
-  return outer;
-}
-
-/// Distances at all vertices of a cloud's sheet from those of its points; `outer` as above. What
-/// joins two points is where both ends are.
+/// Distances at all vertices of a cloud's sheet from those of its points; `outer` as
+/// vertices_outside has it for that. What joins two points is where both ends are.
 template <class Real>
 std::vector<Real> sheet_distances(const PointCloud<Real>& cloud, std::span<const Real> points,
                                   std::span<const Index> outer) {
@@ -62,4 +36,4 @@ std::vector<Real> sheet_distances(const PointCloud<Real>& cloud, std::span<const
   return distance;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -10,7 +10,7 @@
 
 #include "paths/infinity.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A way along edges from a vertex to a source, over falling distances.
 ///
@@ -92,4 +92,4 @@ std::vector<Index> descend_edges(Index from, Distance distance, End end, Edges e
   return way;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -2,9 +2,9 @@
 
 #include <limits>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The distance of what cannot be reached.
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace plexway {
+namespace plexway::detail {
 template <class Real>
 std::vector<StraightPiece> laid_on(const TriangleMesh<Real>& input,
                                    const IntrinsicDelaunay& delaunay,
@@ -108,4 +108,4 @@ Path LaidPaths<Real>::lay(std::span<const StraightPiece> lines, const PointSourc
 template class LaidPaths<float>;
 template class LaidPaths<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -11,7 +11,7 @@
 
 #include "paths/strip_paths.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// From the caller's corners to those inside of a triangle that may run the other way, and back.
 inline std::array<double, 3> turned(const std::array<double, 3>& b, bool other_way) {
@@ -52,4 +52,4 @@ class LaidPaths {
 extern template class LaidPaths<float>;
 extern template class LaidPaths<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

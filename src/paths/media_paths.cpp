@@ -7,7 +7,7 @@
 #include "paths/infinity.hpp"
 #include "paths/straight_walk.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 struct Medium {
@@ -131,4 +131,4 @@ template MediaPaths::MediaPaths(const MixedStrings&, std::span<const double>,
                                 std::span<const PointSource>,
                                 std::span<const std::array<double, 3>>);
 
-}  // namespace plexway
+}  // namespace plexway::detail

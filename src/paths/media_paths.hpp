@@ -10,7 +10,7 @@
 
 #include "strings/mixed_strings.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Paths, and distances of points, on a mixed domain that strings solved: the strings themselves.
 class MediaPaths {
@@ -44,4 +44,4 @@ class MediaPaths {
   std::vector<Index> vertex_;     // likewise, one of those that lie there; if paths are drawn
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,7 +1,7 @@
 #include <plexway/paths/mixed_path_field.hpp>
 
 #include <string>
-#include <variant>
+#include <utility>
 
 #include <plexway/error.hpp>
 
@@ -13,26 +13,14 @@
 #include "strings/mixed_strings.hpp"
 
 namespace plexway {
-namespace {
-
-// How many corners a simplex has; 0 if there is none such.
-template <class Real>
-std::size_t corners_of(const MixedComplex<Real>& domain, Index simplex) {
-  for (const auto& piece : domain.pieces())
-    if (simplex >= piece.first_simplex && simplex - piece.first_simplex < piece.simplices)
-      return domain.complex(piece).index() == 0 ? 3 : domain.complex(piece).index() == 1 ? 4 : 2;
-  return 0;
-}
-
-}  // namespace
+using namespace detail;
 
 template <class Real>
-PathField<MixedComplex<Real>>::PathField(const MixedComplex<Real>& domain,
-                                         std::span<const std::array<double, 3>> positions)
-    : domain_(&domain), positions_(positions) {
+PathField<MixedComplex<Real>>::PathField(const MixedComplex<Real>& domain, GivenPoints positions)
+    : domain_(&domain), positions_(std::move(positions)) {
   if (!MixedSpace::of(domain)->media) cells_ = std::make_unique<ComplexCells<Real>>(domain);
-  if (!positions.empty() && positions.size() != domain.vertex_count())
-    throw UsageError(std::to_string(positions.size()) + " positions for " +
+  if (!positions_.empty() && positions_.size() != domain.vertex_count())
+    throw UsageError(std::to_string(positions_.size()) + " positions for " +
                      std::to_string(domain.vertex_count()) +
                      " vertices: give one a vertex, or none");
 }
@@ -46,15 +34,15 @@ template <class Real>
 PathField<MixedComplex<Real>>::~PathField() = default;
 
 template <class Real>
-void PathField<MixedComplex<Real>>::adopt(DistanceField<Real> found,
-                                          std::span<const PointSource> sources) {
+void PathField<MixedComplex<Real>>::adopt(DistanceField<Real> found, const SourceList& sources) {
+  const std::span<const PointSource> points = points_of(Purpose::paths, sources);
   if (!cells_) {
     auto& strings = workspace_.state().media;
     if (!strings) strings = std::make_shared<MixedStrings>();
-    strings->solve(*domain_, MixedSpace::of(*domain_), sources, {}, field_);
+    strings->solve(*domain_, MixedSpace::of(*domain_), points, {}, {}, field_);
   }
   field_ = std::move(found);
-  took(sources);
+  took(points);
 }
 
 template <class Real>
@@ -74,9 +62,7 @@ PointSource PathField<MixedComplex<Real>>::checked(const PointSource& point) con
   if (!solved_) throw UsageError("there is nothing to trace before a solve");
   PointSource at = point;
   at.offset = 0;
-  const std::size_t corners = at.vertex == none ? corners_of(*domain_, at.simplex) : 4;
-  check_source(at, {domain_->vertex_count(), domain_->simplex_count(), "simplex",
-                    corners == 0 ? 4 : corners});
+  check_source(at, source_domain(*domain_, at));
   return at;
 }
 

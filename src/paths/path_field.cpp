@@ -9,6 +9,7 @@
 
 #include <plexway/error.hpp>
 
+#include "complexes/common/vertices_outside.hpp"
 #include "executors/checks.hpp"
 #include "fields/surface_read_out.hpp"
 #include "fields/window_read_out.hpp"
@@ -19,6 +20,7 @@
 #include "paths/surface_trace.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 template <class Real>
@@ -92,41 +94,30 @@ std::pair<Index, std::array<double, 3>> middle(const TriangleMesh<Real>& mesh,
   return {f, inside({at[0], at[1], at[2], 0}, turned)};
 }
 
-/// From vertices inside to the caller's.
-template <class Domain>
-std::vector<Index> vertices_outside(const Domain& domain) {
-  const std::span<const Index> inside = domain.vertices_inside();
-  std::vector<Index> outer(inside.size());
-  for (std::size_t v = 0; v < inside.size(); ++v) outer[inside[v]] = static_cast<Index>(v);
-  return outer;
-}
-
 }  // namespace
 
 template <template <class> class Domain, class Real>
-PathField<Domain<Real>>::PathField(const Domain<Real>& domain,
-                                   std::span<const std::array<double, 3>> positions)
-    : PathField(domain, nullptr, domain, positions) {}
+PathField<Domain<Real>>::PathField(const Domain<Real>& domain, GivenPoints positions)
+    : PathField(domain, nullptr, domain, std::move(positions)) {}
 
 template <template <class> class Domain, class Real>
-PathField<Domain<Real>>::PathField(
-    const Domain<Real>& domain, const IntrinsicDelaunay& delaunay, const Domain<Real>& input,
-    std::span<const std::array<double, 3>> positions) requires(Domain<Real>::kind ==
-                                                               DomainKind::surface)
-    : PathField(domain, &delaunay, input, positions) {}
+PathField<Domain<Real>>::PathField(const Domain<Real>& domain, const IntrinsicDelaunay& delaunay,
+                                   const Domain<Real>& input,
+                                   GivenPoints positions) requires(Domain<Real>::kind ==
+                                                                   DomainKind::surface)
+    : PathField(domain, &delaunay, input, std::move(positions)) {}
 
 template <template <class> class Domain, class Real>
 PathField<Domain<Real>>::PathField(const Domain<Real>& domain, const IntrinsicDelaunay* delaunay,
-                                   const Domain<Real>& given,
-                                   std::span<const std::array<double, 3>> positions)
-    : domain_(&domain), given_(&given), delaunay_(delaunay), positions_(positions) {
+                                   const Domain<Real>& given, GivenPoints positions)
+    : domain_(&domain), given_(&given), delaunay_(delaunay), positions_(std::move(positions)) {
   // Without one space around that lines are straight in.
   if (Domain<Real>::kind == DomainKind::wireframe ||
       given.metric() == (Domain<Real>::kind == DomainKind::solid ? MetricKind::intrinsic
                                                                  : MetricKind::refracting))
     cells_ = std::make_shared<const ComplexCells<Real>>(given);
-  if (!positions.empty() && positions.size() != given.vertex_count())
-    throw UsageError(std::to_string(positions.size()) + " positions for " +
+  if (!positions_.empty() && positions_.size() != given.vertex_count())
+    throw UsageError(std::to_string(positions_.size()) + " positions for " +
                      std::to_string(given.vertex_count()) +
                      " vertices: give one a vertex, or none");
   outer_ = vertices_outside(domain);
@@ -138,9 +129,10 @@ PathField<Domain<Real>>::PathField(const Domain<Real>& domain, const IntrinsicDe
 }
 
 template <template <class> class Domain, class Real>
-std::span<const PointSource> PathField<Domain<Real>>::take(std::span<const PointSource> sources) {
+std::span<const PointSource> PathField<Domain<Real>>::take(const SourceList& sources) {
   solved_ = false;
-  sources_.assign(sources.begin(), sources.end());
+  const std::span<const PointSource> points = points_of(Purpose::paths, sources);
+  sources_.assign(points.begin(), points.end());
   if constexpr (Domain<Real>::kind == DomainKind::surface)
     if (delaunay_ != nullptr) {
       given_sources_ = sources_;
@@ -163,7 +155,7 @@ void PathField<Domain<Real>>::took(const PropagateOptions& options, Kept kept) {
       DistanceField<Real> unused;
       auto& strings = workspace_.state().strings;
       if (!strings) strings = std::make_shared<SolidStrings>();
-      strings->solve(*domain_, sources_, by_strings, unused);
+      strings->solve(*domain_, sources_, by_strings, {}, unused);
     }
   if (cells_) cell_distance_ = cell_distances<Real>(*cells_, field_.distance);
   solved_ = true;
@@ -177,7 +169,7 @@ Solved<Real> PathField<Domain<Real>>::solved() const {
   return {workspace_.state(),
           field_,
           sources_,
-          delaunay_ ? std::span<const std::array<double, 3>>() : positions_,
+          delaunay_ ? std::span<const std::array<double, 3>>() : std::span(positions_),
           {},
           outer_,
           outer_simplices_,

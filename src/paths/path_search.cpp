@@ -9,15 +9,16 @@
 #include <plexway/paths/path_field.hpp>
 #include <plexway/solve.hpp>
 
+#include "complexes/common/vertices_outside.hpp"
 #include "executors/checks.hpp"
 #include "labels/surface/saddle_rule.hpp"
 #include "labels/surface/triangle_propagation.hpp"
 #include "labels/wavefront.hpp"
-#include "paths/guided_queue.hpp"
 #include "paths/infinity.hpp"
 #include "paths/surface_trace.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 // What single precision may have done to lengths.
@@ -48,10 +49,60 @@ double least_stretch(const TriangleRecord<Real>& t, double unit, const Vector3<d
 
 }  // namespace
 
+/// What a guided queue shares with those who ask and stop it. Guide has
+///   bound(simplex, distance)   of all paths that its label, this far at its centre, leads to
+///   settled(bound)   true if nothing at this bound or above is wanted any more
+template <class Real, class Guide>
+struct GuidedFront {
+  struct Entry {
+    double bound;
+    Real distance;
+    Index simplex;
+  };
+  std::vector<Entry> heap;
+  Guide* guide;
+};
+
+/// Least bound first. A simplex may wait several times; what is out of date is skipped.
+template <class Real, class Guide>
+class GuidedQueue {
+ public:
+  using Front = GuidedFront<Real, Guide>;
+  explicit GuidedQueue(Front& front) : front_(&front) {}
+
+  void push(Index simplex, Real distance, bool = true) {
+    const double bound = front_->guide->bound(simplex, static_cast<double>(distance));
+    front_->heap.push_back({bound, distance, simplex});
+    std::push_heap(front_->heap.begin(), front_->heap.end(), later);
+  }
+
+  template <class DistanceOf>
+  bool pop(Index& simplex, DistanceOf distance_of) {
+    auto& heap = front_->heap;
+    while (!heap.empty()) {
+      const auto first = heap.front();
+      if (first.distance == distance_of(first.simplex) && front_->guide->settled(first.bound))
+        return false;
+      std::pop_heap(heap.begin(), heap.end(), later);
+      heap.pop_back();
+      if (first.distance != distance_of(first.simplex)) continue;
+      simplex = first.simplex;
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  static bool later(const typename Front::Entry& a, const typename Front::Entry& b) {
+    return a.bound > b.bound;
+  }
+  Front* front_;
+};
+
 template <class Real>
 struct PathSearch<Real>::State {
   const TriangleMesh<Real>& mesh;
-  std::span<const std::array<double, 3>> positions;
+  GivenPoints positions;
   double scale = 0;
   std::vector<Index> outer;
   WorkspaceState<Real> workspace;
@@ -73,11 +124,8 @@ struct PathSearch<Real>::State {
   double next_settled = infinity;  // the least `best` of those not settled
   const SurfaceLabels<Real>* labels = nullptr;
 
-  explicit State(const TriangleMesh<Real>& m) : mesh(m), front{{}, this} {
-    const auto inside = m.vertices_inside();
-    outer.resize(inside.size());
-    for (std::size_t v = 0; v < inside.size(); ++v) outer[inside[v]] = static_cast<Index>(v);
-  }
+  explicit State(const TriangleMesh<Real>& m)
+      : mesh(m), outer(vertices_outside(m)), front{{}, this} {}
 
   [[nodiscard]] Vector3<double> position(Index inside) const {
     const auto& p = positions[outer[inside]];
@@ -179,15 +227,14 @@ PathSearch<Real>::PathSearch(const TriangleMesh<Real>& mesh)
 }
 
 template <class Real>
-PathSearch<Real>::PathSearch(const TriangleMesh<Real>& mesh,
-                             std::span<const std::array<double, 3>> positions, double scale)
+PathSearch<Real>::PathSearch(const TriangleMesh<Real>& mesh, GivenPoints positions, double scale)
     : PathSearch(mesh) {
   State& s = *state_;
   if (positions.size() != mesh.vertex_count())
     throw UsageError(std::to_string(positions.size()) + " positions for " +
                      std::to_string(mesh.vertex_count()) + " vertices: give one a vertex");
   if (!(scale >= 0) || !std::isfinite(scale)) throw UsageError("the scale must be a number >= 0");
-  s.positions = positions;
+  s.positions = std::move(positions);
   double least = infinity;
   Index worst = none;
   for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -211,9 +258,10 @@ template <class Real>
 PathSearch<Real>& PathSearch<Real>::operator=(PathSearch&&) noexcept = default;
 
 template <class Real>
-SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources,
-                                    std::span<const PointSource> targets,
+SearchResult PathSearch<Real>::find(Serial, const SourceList& from, const SourceList& to,
                                     const SearchOptions& options) {
+  const std::span<const PointSource> sources = points_of(Purpose::searches, from),
+                                     targets = points_of(Purpose::searches, to);
   State& s = *state_;
   const TriangleMesh<Real>& mesh = s.mesh;
   const SourceDomain domain = {mesh.vertex_count(), mesh.face_count(), "face", 3};
@@ -221,7 +269,7 @@ SearchResult PathSearch<Real>::find(Serial, std::span<const PointSource> sources
   propagate.max_expansions = options.max_expansions;
   propagate.progress = options.progress;
   check(sources, propagate, domain);
-  plexway::check(options.trace, mesh);
+  detail::check(options.trace, mesh);
   if (targets.empty()) throw UsageError("there is no target: name at least one");
 
   s.heuristic = options.heuristic ? &options.heuristic : nullptr;

@@ -4,27 +4,26 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "complexes/common/vertices_outside.hpp"
 #include "paths/laid_path.hpp"
 
 namespace plexway {
+using namespace detail;
 
 template <class Real>
 Path shortened(const TriangleMesh<Real>& mesh, std::span<const PathPoint> path,
-               std::span<const std::array<double, 3>> positions) {
+               const GivenPoints& positions) {
   if (mesh.metric() == MetricKind::refracting)
     throw UsageError("a given path is not shortened on surfaces with refracting edges");
   if (path.empty()) throw UsageError("there is no path to shorten: it has no points");
   if (!positions.empty() && positions.size() != mesh.vertex_count())
     throw UsageError("expected one position a vertex");
-  const auto inside = mesh.vertices_inside();
-  std::vector<Index> outer(inside.size());
-  for (std::size_t v = 0; v < inside.size(); ++v) outer[inside[v]] = static_cast<Index>(v);
+  const std::vector<Index> outer = vertices_outside(mesh);
   const auto at = [&](const PathPoint& point) {
     const auto [face, runs_back] = mesh.inside_face(point.simplex);
     const auto& b = point.barycentric;
@@ -62,9 +61,8 @@ Path shortened(const TriangleMesh<Real>& mesh, std::span<const PathPoint> path,
   return LaidPaths<Real>(mesh, positions, outer).lay(lines, end(path.front()), end(path.back()));
 }
 
-template Path shortened(const TriangleMesh<float>&, std::span<const PathPoint>,
-                        std::span<const std::array<double, 3>>);
+template Path shortened(const TriangleMesh<float>&, std::span<const PathPoint>, const GivenPoints&);
 template Path shortened(const TriangleMesh<double>&, std::span<const PathPoint>,
-                        std::span<const std::array<double, 3>>);
+                        const GivenPoints&);
 
 }  // namespace plexway

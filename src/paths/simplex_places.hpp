@@ -10,7 +10,7 @@
 
 #include "complexes/common/box_tree.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The corners of a simplex, numbers inside.
 template <class Real>
@@ -39,8 +39,8 @@ std::array<double, 3> place_of(const TriangleMesh<Real>& mesh, Index v) {
 }
 template <class Real>
 std::array<double, 3> place_of(const TetMesh<Real>& mesh, Index v) {
-  const Vector3<Real>& p = mesh.points()[v];
-  return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+  const auto& [x, y, z] = mesh.points()[v];
+  return {x, y, z};
 }
 
 /// What a simplex lies in.
@@ -68,8 +68,7 @@ template <class Real>
 double content_in_space(const TetMesh<Real>& solid, Index s) {
   const Index* v = solid.tets()[s].corner;
   const auto p = solid.points();
-  return static_cast<double>(dot(p[v[1]] - p[v[0]], cross(p[v[2]] - p[v[0]], p[v[3]] - p[v[0]]))) /
-         6;
+  return dot(p[v[1]] - p[v[0]], cross(p[v[2]] - p[v[0]], p[v[3]] - p[v[0]])) / 6;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -13,7 +13,7 @@
 #include "labels/workspace_state.hpp"
 #include "windows/kept_windows.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What a solve left behind, for those who trace paths in it.
 template <class Real>
@@ -61,4 +61,4 @@ inline std::size_t corner_of(const std::array<double, 4>& b) {
   return 4;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

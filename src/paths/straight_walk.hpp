@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -9,7 +10,7 @@
 
 #include "strings/place.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Straight lines through simplices, in double. Space has
 ///   corners(s)           the points of a simplex, none beyond
@@ -104,4 +105,4 @@ class StraightWalk {
   Space space_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

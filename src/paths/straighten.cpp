@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 // Less than this is not worth a move: it shortens the path by its square.
@@ -139,4 +139,4 @@ PulledStrip Straightener<Real>::straighten(Strip& strip) const {
 template class Straightener<float>;
 template class Straightener<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

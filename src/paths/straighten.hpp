@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include <plexway/surface/triangle_mesh.hpp>
@@ -8,7 +7,7 @@
 #include "paths/strip.hpp"
 #include "paths/surface_shape.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Makes strips locally shortest.
 ///
@@ -42,4 +41,4 @@ class Straightener {
   const SurfaceShape<Real>* shape_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

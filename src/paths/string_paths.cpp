@@ -6,7 +6,7 @@
 
 #include "paths/infinity.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr std::array<double, 4> centre = {.25, .25, .25, .25};
@@ -146,4 +146,4 @@ Index StringPaths<Real>::source(Index t) const {
 template class StringPaths<float>;
 template class StringPaths<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -11,7 +11,7 @@
 #include "paths/straight_walk.hpp"
 #include "strings/solid_strings.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The tetrahedra of a solid in space, as lines cross them. Numbers and frame inside.
 template <class Real>
@@ -21,10 +21,7 @@ struct TetSpace {
   [[nodiscard]] std::array<Index, 4> corners(Index t) const {
     return std::to_array(mesh.tets()[t].corner);
   }
-  [[nodiscard]] strings::Point point(Index v) const {
-    const Vector3<Real>& p = mesh.points()[v];
-    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-  }
+  [[nodiscard]] const strings::Point& point(Index v) const { return mesh.points()[v]; }
   [[nodiscard]] bool may_cross(Index) const { return true; }
   [[nodiscard]] std::vector<Index> around(Index t, const std::array<double, 4>& weight) const;
 };
@@ -62,4 +59,4 @@ class StringPaths {
 extern template class StringPaths<float>;
 extern template class StringPaths<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

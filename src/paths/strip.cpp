@@ -5,7 +5,7 @@
 #include <deque>
 #include <optional>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 struct Portal {
@@ -211,4 +211,4 @@ std::array<double, 3> exit(const Strip& strip, const PulledStrip& pulled, std::s
 template PulledStrip pull(const SurfaceShape<float>&, const Strip&);
 template PulledStrip pull(const SurfaceShape<double>&, const Strip&);
 
-}  // namespace plexway
+}  // namespace plexway::detail

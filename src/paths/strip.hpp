@@ -10,7 +10,7 @@
 #include "paths/surface_shape.hpp"
 #include "paths/vector2.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// From one triangle to the next: out over edge `from` of the one, into `face` over its `edge`.
 /// flip: both edges run the same way.
@@ -101,4 +101,4 @@ std::array<double, 3> entry(const Strip& strip, const PulledStrip& pulled, std::
 /// Where it leaves triangle i, in the coordinates of that one, or its end.
 std::array<double, 3> exit(const Strip& strip, const PulledStrip& pulled, std::size_t i);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-namespace plexway {
+namespace plexway::detail {
 
 template <class Real>
 void StripPaths<Real>::add(StripWay& way, Strip& leg, Heading& at, const Heading& to) const {
@@ -109,4 +109,4 @@ Path StripPaths<Real>::to_path(const PulledWay& way, std::span<const Position> d
 template class StripPaths<float>;
 template class StripPaths<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -12,7 +12,7 @@
 #include "paths/strip.hpp"
 #include "paths/surface_shape.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A way from a point to a source: strips that meet in vertices.
 struct StripWay {
@@ -86,4 +86,4 @@ class StripPaths {
 extern template class StripPaths<float>;
 extern template class StripPaths<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

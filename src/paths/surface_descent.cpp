@@ -7,7 +7,7 @@
 #include "paths/infinity.hpp"
 #include "paths/surface_trace.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 /// A triangle with the edge (v, w), and the direction of w at v.
 template <class Real>
 std::optional<Heading> SurfaceTrace<Real>::side(Index v, Index w) const {
@@ -131,4 +131,4 @@ template bool SurfaceTrace<float>::descend(Index, const std::array<double, 3>&, 
 template bool SurfaceTrace<double>::descend(Index, const std::array<double, 3>&, bool,
                                             StripWay&) const;
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -10,7 +10,7 @@
 
 #include "paths/vector2.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The triangles of a surface in double, in the caller's unit: from coordinates where there are
 /// some, else from the lengths and angles that propagation uses. Triangles and corners have the
@@ -32,7 +32,6 @@ class SurfaceShape {
   [[nodiscard]] bool embedded() const { return !positions_.empty(); }
   [[nodiscard]] Index sentinel() const { return sentinel_; }
   [[nodiscard]] const TriangleRecord<Real>& triangle(Index f) const { return triangles_[f]; }
-  [[nodiscard]] Index outer_vertex(Index inside) const { return outer_[inside]; }
 
   /// Corner i of f. Only if embedded.
   [[nodiscard]] Vector3<double> corner(Index f, std::size_t i) const {
@@ -94,4 +93,4 @@ class SurfaceShape {
   std::span<const Index> outer_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -5,7 +5,7 @@
 
 #include "paths/infinity.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 template <class Real>
 SurfaceTrace<Real>::SurfaceTrace(const TriangleMesh<Real>& mesh, const Solved<Real>& solved)
     : mesh_(mesh),
@@ -19,11 +19,19 @@ double SurfaceTrace<Real>::distance(Index v) const {
   if (!solved_.field.distance.empty())
     return static_cast<double>(solved_.field.distance[solved_.outer[v]]);
   double least = infinity;
-  std::vector<Index> corners;
-  mesh_.corners_at(v, corners);
-  for (const Index c : corners)
+  mesh_.corners_at(v, corners_);
+  for (const Index c : corners_)
     if (labels_.reached(c / 3)) least = std::min(least, labels_.corner_distance(c / 3, c % 3));
   return least * mesh_.unit();
+}
+
+template <class Real>
+double SurfaceTrace<Real>::promise(Index f, const std::array<double, 3>& b) const {
+  double least = infinity;
+  for (std::size_t i = 0; i < 3; ++i)
+    least = std::min(
+        least, distance(mesh_.triangles()[f].corner[i]) + shape_.distance(f, at_corner(i), b));
+  return least;
 }
 
 template <class Real>
@@ -59,17 +67,14 @@ PulledWay SurfaceTrace<Real>::find(const PointSource& point, const TraceOptions&
 
   // A path longer than promised by this is a reason to try the shortest way along edges as well.
   constexpr double failure = 1.01;
-  double promise = infinity;  // by a corner
-  for (std::size_t i = 0; i < 3; ++i)
-    promise = std::min(
-        promise, distance(mesh_.triangles()[f].corner[i]) + shape_.distance(f, at_corner(i), b));
+  const double promised = promise(f, b);
   PulledWay best;
   const auto whole = [&](const PulledWay& t) {
     return t.source == none ? infinity : t.length + solved_.sources[t.source].offset;
   };
   for (const bool blindly : {false, true}) {
     StripWay way;
-    if (whole(best) <= promise * failure || !descend(f, b, blindly, way)) continue;
+    if (whole(best) <= promised * failure || !descend(f, b, blindly, way)) continue;
     PulledWay traced = strips_.straighten(std::move(way));
     if (whole(traced) < whole(best)) best = std::move(traced);
   }
@@ -80,4 +85,4 @@ PulledWay SurfaceTrace<Real>::find(const PointSource& point, const TraceOptions&
 template class SurfaceTrace<float>;
 template class SurfaceTrace<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

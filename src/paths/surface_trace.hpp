@@ -2,7 +2,6 @@
 
 #include <array>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <plexway/paths/path.hpp>
@@ -15,7 +14,7 @@
 #include "paths/strip_paths.hpp"
 #include "paths/surface_shape.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Barycentric coordinates by the corners inside: a triangle that runs backwards there has them in
 /// the order 0 2 1.
@@ -46,6 +45,8 @@ class SurfaceTrace {
  private:
   /// Of a vertex (inside). A search leaves labels only.
   [[nodiscard]] double distance(Index v) const;
+  /// Of a point, by a corner: what the field promises.
+  [[nodiscard]] double promise(Index f, const std::array<double, 3>& b) const;
   bool follow_windows(Index f, std::array<double, 3> at, StripWay& way) const;
   bool descend(Index f, const std::array<double, 3>& b, bool blindly, StripWay& way) const;
   [[nodiscard]] std::optional<Heading> side(Index v, Index w) const;
@@ -58,6 +59,7 @@ class SurfaceTrace {
   StripPaths<Real> strips_;
   const SurfaceShape<Real>& shape_;
   SurfaceLabels<Real> labels_;
+  mutable std::vector<Index> corners_;  // around one vertex
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -9,7 +9,7 @@
 #include "paths/surface_trace.hpp"
 #include "paths/window_search.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 template <class Real>
 void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
                                         const TraceOptions& options, PulledWay& best) const {
@@ -35,10 +35,7 @@ void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
   // Where the field and the path it led to disagree, or a path much shorter than that is found, the
   // field is off by more than usual: look wider.
   constexpr double shorter = 1 - 1e-12, widest = 0.05;
-  double promise = infinity;
-  for (std::size_t i = 0; i < 3; ++i)
-    promise = std::min(promise,
-                       left(mesh_.triangles()[f].corner[i]) + shape_.distance(f, at_corner(i), b));
+  const double promised = promise(f, b);
   // Looks for something shorter within a margin. False if windows ran out before all was seen.
   const auto look = [&](double margin, std::size_t most, double bound = infinity) {
     const double known = length();
@@ -72,13 +69,13 @@ void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
   const double asked = options.margin.value_or(TraceOptions::usual_margin);
   double margin = std::min(asked, TraceOptions::usual_margin);
   // What is longer than promised would be far from the shortest: first near that.
-  if (const double near = promise * (1 + margin); margin > 0 && near < length())
+  if (const double near = promised * (1 + margin); margin > 0 && near < length())
     look(margin, options.max_windows, near);
   while (margin > 0 && seen && used < options.max_windows) {
     const double known = length();
     widen(margin);
     const double gain = 1 - length() / known;
-    const double off = promise > 0 && promise < infinity ? std::abs(length() / promise - 1) : 0;
+    const double off = promised > 0 && promised < infinity ? std::abs(length() / promised - 1) : 0;
     const double next = std::min(4 * std::max(gain, off), widest);
     const double wanted = margin < asked ? std::min(2 * margin, asked) : 0;
     margin = next > margin ? std::max(next, 2 * margin) : wanted;
@@ -189,4 +186,4 @@ bool SurfaceTrace<Real>::follow_windows(Index f, std::array<double, 3> at, Strip
 template bool SurfaceTrace<float>::follow_windows(Index, std::array<double, 3>, StripWay&) const;
 template bool SurfaceTrace<double>::follow_windows(Index, std::array<double, 3>, StripWay&) const;
 
-}  // namespace plexway
+}  // namespace plexway::detail

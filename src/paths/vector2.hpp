@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A point in the plane that a strip of triangles is unfolded into.
 struct Vector2 {
@@ -16,4 +16,4 @@ struct Vector2 {
   friend double norm(const Vector2& a) { return std::sqrt(dot(a, a)); }
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -8,7 +8,7 @@
 
 #include "sampling/random.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A bag from which pieces are drawn with chances in proportion to their weights, each in about
 /// constant time: pieces of like weight lie together, and a draw that hits the lighter ones of them
@@ -57,4 +57,4 @@ class WeightedPieces {
   std::size_t count_ = 0;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -7,7 +7,7 @@
 
 #include "paths/infinity.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr auto later = [](const auto& a, const auto& b) { return a.bound > b.bound; };
@@ -384,4 +384,4 @@ typename WindowSearch<Real>::Found WindowSearch<Real>::find(Index f, const std::
 template class WindowSearch<float>;
 template class WindowSearch<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

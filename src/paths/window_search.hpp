@@ -14,7 +14,7 @@
 #include "paths/strip.hpp"
 #include "paths/surface_shape.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Values by number, for a few of very many numbers: open addressing.
 template <class Value>
@@ -173,4 +173,4 @@ class WindowSearch {
   Index last_window_ = none, last_arrival_ = none;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

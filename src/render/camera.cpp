@@ -5,6 +5,7 @@
 #include <limits>
 
 namespace plexway::render {
+using namespace detail;
 namespace {
 
 constexpr double half_angle_tangent = 0.21;  // 24 degrees from top to bottom

@@ -7,6 +7,7 @@
 #include "io/field/colours.hpp"
 
 namespace plexway::render {
+using namespace detail;
 namespace {
 
 constexpr const std::array<Colour, 8>& palette = io::cell_colours;

@@ -14,6 +14,7 @@
 #include "render/skins.hpp"
 
 namespace plexway::render {
+using namespace detail;
 
 namespace {
 

@@ -12,6 +12,7 @@
 #include "complexes/common/point3.hpp"
 
 namespace plexway::render {
+using namespace detail;
 
 inline Point plus(const Point& a, const Point& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};

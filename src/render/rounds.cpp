@@ -3,13 +3,13 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 
 #include "complexes/common/median.hpp"
 #include "render/camera.hpp"
 #include "render/skins.hpp"
 
 namespace plexway::render {
+using namespace detail;
 namespace {
 
 constexpr double turn = 6.28318530717958647692;

@@ -1,4 +1,4 @@
-#include "render/sight.hpp"
+#include "render/canvas.hpp"
 
 #include <algorithm>
 #include <array>

@@ -11,6 +11,7 @@
 #include "render/draw_list.hpp"
 
 namespace plexway::render {
+using namespace detail;
 
 inline constexpr Colour part_grey = {214, 219, 226};
 inline constexpr Colour unreached = {150, 150, 150};

@@ -6,6 +6,7 @@
 #include "render/skins.hpp"
 
 namespace plexway::render {
+using namespace detail;
 namespace {
 
 /// A plane through a tetrahedron: on which edges its corners are, in cyclic order.

@@ -2,7 +2,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -18,7 +17,6 @@
 #include "render/composition.hpp"
 #include "render/draw_list.hpp"
 #include "render/png.hpp"
-#include "render/sight.hpp"
 
 namespace plexway::render {
 

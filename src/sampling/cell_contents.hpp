@@ -7,7 +7,7 @@
 
 #include "executors/growth.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Shares of a simplex by functions that are linear in it: it is cut at edges where the least of
 /// them changes, until it does nowhere.
@@ -122,4 +122,4 @@ std::vector<double> cell_contents(Growth<Complex>& field, std::size_t cells) {
   return content;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -10,7 +10,7 @@
 
 #include "executors/growth.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What cells are around their seeds: content, energy, and the mean of the vectors from the seed.
 template <class Complex>
@@ -246,11 +246,11 @@ class CellMoments<TetMesh<Real>> {
       const double d = static_cast<double>(field_.distance(t));
       const double length = norm(way);
       const double scale = length > 0 ? d / length : 0;
-      const Vector3<Real>& centre = mesh_.tets()[t].centre;
+      const Vector3<double> centre = field_.position(t, {.25, .25, .25, .25});
       double own = 0;
       for (const Index v : mesh_.tets()[t].corner) {
-        const Vector3<Real> r = mesh_.points()[v] - centre;
-        own += static_cast<double>(dot(r, r)) / 20;
+        const Vector3<double> r = mesh_.points()[v] - centre;
+        own += dot(r, r) / 20;
       }
       add(field_.source(t), static_cast<double>(field_.measure(t)),
           {scale * way.x, scale * way.y, scale * way.z}, d * d, own);
@@ -294,13 +294,9 @@ class CellMoments<TetMesh<Real>> {
   // How the weights change along a vector.
   [[nodiscard]] Weights rates(Index t, const Vector& way) const {
     const Index* v = mesh_.tets()[t].corner;
-    using Point = Vector3<double>;
-    const auto point = [&](std::size_t i) {
-      const auto& p = mesh_.points()[v[i]];
-      return Point{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-    };
-    const Point a = point(1) - point(0), b = point(2) - point(0), c = point(3) - point(0);
-    const Point d = {way[0], way[1], way[2]};
+    const auto p = mesh_.points();
+    const auto a = p[v[1]] - p[v[0]], b = p[v[2]] - p[v[0]], c = p[v[3]] - p[v[0]];
+    const Vector3<double> d = {way[0], way[1], way[2]};
     const double volume = dot(a, cross(b, c));
     if (!(std::abs(volume) > 0)) return {};
     const double x = dot(d, cross(b, c)) / volume, y = dot(a, cross(d, c)) / volume,
@@ -312,4 +308,4 @@ class CellMoments<TetMesh<Real>> {
   Growth<TetMesh<Real>>& field_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

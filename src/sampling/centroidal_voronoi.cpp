@@ -16,6 +16,7 @@
 #include "sampling/cell_moments.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 template <class Complex>

@@ -17,7 +17,7 @@
 #include "sampling/dart_thrower.hpp"
 #include "sampling/domain_blocks.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Before any is cut: at least so many parts have edges within `limits`, one a vertex, in the unit
 /// inside. Throws TooManyParts where these are more than `most`.
@@ -253,4 +253,4 @@ class DartSample {
   double done_ = 0, share_ = 1;  // of the domain: before, and what is under way
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

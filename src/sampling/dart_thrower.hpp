@@ -19,7 +19,7 @@
 #include "paths/weighted_pieces.hpp"
 #include "sampling/random.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// One maximal Poisson-disk sample of a domain whose simplices are small against the radius.
 ///
@@ -333,4 +333,4 @@ class DartThrower {
   std::size_t thrown_ = 0, taken_back_ = 0;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -10,7 +9,7 @@
 #include "fields/cut_domain.hpp"
 #include "paths/simplex_places.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Of the simplices with edges up to 1 the regular one has most content: at least so many parts
 /// has one of a content whose edges may be as long as `limit`.
@@ -109,4 +108,4 @@ class DomainBlocks {
   std::size_t most_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

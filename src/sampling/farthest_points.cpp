@@ -1,10 +1,8 @@
 #include <plexway/sampling/farthest_points.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <queue>
-#include <tuple>
 #include <unordered_map>
 
 #include <plexway/error.hpp>
@@ -15,6 +13,7 @@
 #include "paths/infinity.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 template <class Complex>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -13,6 +12,7 @@
 #include "sampling/dart_sample.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 void check_options(const PoissonOptions& options, std::size_t vertices) {

@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Random numbers that are the same everywhere: splitmix64 (Steele, Lea, Flood, OOPSLA 2014).
 class Random {
@@ -33,4 +33,4 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -17,23 +17,23 @@
 
 #include "complexes/common/box_tree.hpp"
 #include "complexes/common/closest_point.hpp"
+#include "complexes/common/point3.hpp"
 #include "complexes/solid/shared_faces.hpp"
 #include "shape/shape_state.hpp"
 
 namespace plexway {
+using namespace detail;
+
+namespace detail {
+
 namespace {
 
-using Point = std::array<double, 3>;
+using Point = Point3;
 using Row = std::array<std::uint32_t, 3>;
 
 bool inside_out(std::span<const Point> positions, const std::array<std::uint32_t, 4>& tet) {
-  std::array<Point, 3> e;
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k < 3; ++k) e[i][k] = positions[tet[i + 1]][k] - positions[tet[0]][k];
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-             e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-             e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]) <
-         0;
+  const auto edge = [&](std::size_t i) { return minus(positions[tet[i]], positions[tet[0]]); };
+  return dot(edge(1), cross(edge(2), edge(3))) < 0;
 }
 
 }  // namespace
@@ -120,9 +120,8 @@ class Walls {
   [[nodiscard]] double squared_to(Index triangle, const Point& point) const {
     std::array<Point, 3> corners;
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 3; ++k)
-        corners[i][k] = boundary_.positions[boundary_.triangles[triangle][i]][k] - point[k];
-    return plexway::squared_distance(corners);
+      corners[i] = minus(boundary_.positions[boundary_.triangles[triangle][i]], point);
+    return detail::squared_distance(corners);
   }
 
   io::Triangles boundary_;
@@ -188,6 +187,8 @@ VertexSource rim_of(const VertexSource& walls) {
     if (walls.offsets.empty() || walls.offsets[i] == 0) rim.vertices.push_back(walls.vertices[i]);
   return rim;
 }
+
+}  // namespace detail
 
 namespace {
 
@@ -267,6 +268,8 @@ Source AnyShape::boundary(double offset) const {
   if (source.vertices.empty()) throw nothing();
   return source;
 }
+
+namespace detail {
 
 namespace {
 
@@ -349,5 +352,7 @@ std::vector<double> lengths_of(const io::Edges& wireframe) {
   }
   return lengths;
 }
+
+}  // namespace detail
 
 }  // namespace plexway

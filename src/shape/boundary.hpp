@@ -13,7 +13,7 @@
 
 #include "io/field/field_formats.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The faces of one tetrahedron only, counterclockwise from outside. Cost: O(n log n).
 std::vector<std::array<std::uint32_t, 3>> boundary_faces(
@@ -45,4 +45,4 @@ io::Edges edges_of(const AnyShape& shape);
 /// One length an edge, where they are given and where they follow from the positions.
 std::vector<double> lengths_of(const io::Edges& wireframe);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -2,12 +2,12 @@
 #include <plexway/shape/cloud_shape.hpp>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include <plexway/error.hpp>
 #include <plexway/surface/smoothing.hpp>
 
+#include "complexes/common/point3.hpp"
 #include "io/names.hpp"
 #include "shape/modules/module.hpp"
 
@@ -16,6 +16,7 @@
 #endif
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 // Before anything is read: without neighbours there is nothing to be done.
@@ -92,16 +93,13 @@ bool all_point_to_one_side(const CloudShape& cloud) {
   constexpr double least_cosine = 0.95, most_rise = 0.5;
   const auto& normals = cloud.points.normals;
   const auto& at = cloud.points.positions;
-  const auto dot = [](const auto& a, const auto& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  };
   std::size_t compared = 0, against = 0;
   for (Index i = 0; i < normals.size(); ++i) {
     const auto around = cloud.neighbours.around(i);
     if (around.empty()) continue;
     const Index j = around.front();
     const auto &a = normals[i], &b = normals[j];
-    const std::array<double, 3> q = {at[j][0] - at[i][0], at[j][1] - at[i][1], at[j][2] - at[i][2]};
+    const Point3 q = minus(at[j], at[i]);
     const double along = dot(a, b), rise = dot(a, q), sizes = dot(a, a) * dot(b, b);
     if (!(along * along > least_cosine * least_cosine * sizes)) continue;  // or one is unknown
     if (rise * rise > most_rise * most_rise * dot(a, a) * dot(q, q)) continue;

@@ -1,4 +1,3 @@
-#include "shape/convert.hpp"
 
 #include <algorithm>
 #include <span>
@@ -15,11 +14,11 @@
 #include "io/names.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/boundary.hpp"
-#include "shape/fill.hpp"
+#include "shape/files.hpp"
 #include "shape/modules/module.hpp"
 #include "shape/stopwatch.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 bool among(std::span<const std::string_view> known, const std::string& extension) {
@@ -187,4 +186,4 @@ Converted convert(const std::string& input, const std::string& out, const ReadOp
   return conversion;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

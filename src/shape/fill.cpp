@@ -1,5 +1,6 @@
-#include "shape/fill.hpp"
+#include "shape/files.hpp"
 
+#include <typeinfo>
 #include <utility>
 
 #include <plexway/error.hpp>
@@ -10,7 +11,7 @@
 #include <plexway/tetgen/tetrahedralize.hpp>
 #endif
 
-namespace plexway {
+namespace plexway::detail {
 
 void require_tetgen(const std::string& what) {
 #ifdef PLEXWAY_HAS_TETGEN
@@ -60,13 +61,8 @@ io::Tets filled(const std::string& file, Fill fill) {
     return {std::move(solid.positions), std::move(solid.tets)};
   } catch (const InputError& error) {
     throw InputError(file + ": cannot be filled: " + error.what());
-  } catch (const UsageError&) {
-    throw;
-  } catch (const NotBuiltError&) {
-    throw;
-  } catch (const Cancelled&) {
-    throw;
   } catch (const Error& error) {
+    if (typeid(error) != typeid(Error)) throw;  // of another kind
     throw Error(file + ": cannot be filled: " + error.what());
   }
 }
@@ -97,4 +93,4 @@ io::Tets fill_poly(const std::string& file, const ReadOptions&) {
 }
 #endif
 
-}  // namespace plexway
+}  // namespace plexway::detail

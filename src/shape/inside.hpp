@@ -9,7 +9,7 @@
 #include <plexway/source/point_source.hpp>
 #include <plexway/source/source_list.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Calls point(p), vertex(v) and simplex(s) with all places that a source names, which may change
 /// them; points of simplices and balls have theirs in `point`.
@@ -66,4 +66,4 @@ struct RowComplex {
 /// first vertices are those of the shape.
 [[nodiscard]] RowComplex row_complex(const AnyDomain& domain, std::span<const PointSource> rows);
 
-}  // namespace plexway
+}  // namespace plexway::detail

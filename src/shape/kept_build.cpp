@@ -13,7 +13,7 @@
 #include "shape/kept_build.hpp"
 #include "shape/shape_state.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 template <class Archive, class Value>
@@ -258,4 +258,4 @@ AnyShape read_kept_for(const std::filesystem::path& file, const std::filesystem:
   return AnyShape::of(std::move(state));
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

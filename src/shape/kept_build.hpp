@@ -16,6 +16,10 @@
 #include "io/field/field_formats.hpp"
 
 namespace plexway {
+struct BuildOptions;
+}  // namespace plexway
+
+namespace plexway::detail {
 
 /// What a shape holds, where it lies in a prepared file. Who solves on what is built does not need
 /// it, so it is copied only when it is requested as a whole.
@@ -68,8 +72,6 @@ class KeptShape {
   mutable AnyShape::Data data_;
 };
 
-struct BuildOptions;
-
 /// A domain that was built already, in the file that its shape was read from.
 struct KeptBuild {
   Precision precision = Precision::float32;
@@ -97,4 +99,4 @@ struct KeptBuild {
 /// Writes what comes before the complex. Throws UsageError for a kind that cannot be kept.
 void write_kept_shape(KeptOut& out, const AnyShape& shape, const BuildOptions& options);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -19,6 +19,7 @@
 #include "shape/warnings/survey.hpp"
 
 namespace plexway {
+
 namespace {
 
 // What holds the shape, if it supports a purpose.
@@ -55,15 +56,10 @@ std::vector<Path> on_parts(const MixedShape& shape, std::span<const double> dist
 // Lines on the sheet of a cloud.
 std::vector<Path> on_sheet(const AnyDomain& domain, std::span<const std::array<double, 3>> points,
                            std::span<const double> distance, std::span<const double> values) {
-  std::vector<Path> lines;
-  const auto along = [&]<class Real>(const PointCloud<Real>& sheet) {
+  return with_cloud(domain, [&]<class Real>(const PointCloud<Real>& sheet) {
     const std::vector<Real> rounded(distance.begin(), distance.end());
-    lines = isolines(sheet, points, std::span<const Real>(rounded), values);
-  };
-  with_complex(domain, [&](const auto& complex) {
-    if constexpr (std::decay_t<decltype(complex)>::kind == DomainKind::cloud) along(complex);
+    return isolines(sheet, points, std::span<const Real>(rounded), values);
   });
-  return lines;
 }
 
 DistanceInside inside(const AnyPathField& field) {
@@ -115,6 +111,8 @@ std::vector<Path> isolines(const AnyDomain& domain, const AnyField& field,
                            std::span<const double> values) {
   return isolines(domain, field.doubles(), values);
 }
+
+namespace detail {
 
 namespace {
 
@@ -206,5 +204,7 @@ void write_level_sets(const std::filesystem::path& out, const AnyShape& shown,
                                                    : isolines(domain, field, values);
   io::write_isolines(out, lines, values);
 }
+
+}  // namespace detail
 
 }  // namespace plexway

@@ -8,7 +8,7 @@
 #include <plexway/any_domain.hpp>
 #include <plexway/shape/isolines.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Is the field of a solve known inside of triangles, so that isolines may be arcs: from points,
 /// without a device, unbounded, on all of a surface that lies in space as it is measured?
@@ -42,4 +42,4 @@ void write_level_sets(const std::filesystem::path& out, const AnyShape& shown,
                       const AnyDomain& domain, const AnyField& field, const AnyPathField* paths,
                       std::span<const double> values, double tolerance);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -11,7 +11,7 @@
 #include "complexes/common/point3.hpp"
 #include "executors/checks.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 LinearField::LinearField(std::shared_ptr<const Prepared> domain, const AnyShape& shape,
                          const AnyExecutor& executor, std::span<const PointSource> sources,
@@ -83,4 +83,4 @@ std::vector<std::array<double, 3>> LinearField::gradient() const {
   return all;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

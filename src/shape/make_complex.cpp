@@ -4,7 +4,7 @@
 
 #include "shape/shape_state.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr std::optional<Retriangulation> asked_for(Triangulation wanted) {
@@ -61,4 +61,4 @@ template TriangulatedSurface<float> make_surface(Triangulation, const Making&,
 template TriangulatedSurface<double> make_surface(Triangulation, const Making&,
                                                   TriangulationReport&);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -4,39 +4,23 @@
 #include <cstddef>
 #include <functional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <plexway/common/mask.hpp>
+#include <plexway/common/rows_of.hpp>
 #include <plexway/domain/domains.hpp>
 #include <plexway/mixed/mixed_complex.hpp>
 #include <plexway/shape/field.hpp>
 #include <plexway/shape/shape.hpp>
 #include <plexway/surface/intrinsic_delaunay.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 constexpr Triangulation named(Retriangulation done) {
   return done == Retriangulation::keep    ? Triangulation::input
          : done == Retriangulation::flips ? Triangulation::delaunay
                                           : Triangulation::refined;
 }
-
-/// Rows of what is open: some of their own, or all as they lie there.
-template <class Row>
-class OpenRows {
- public:
-  OpenRows(const std::vector<Row>& all) : rows_(all) {}
-  OpenRows(std::vector<Row>&& some) : some_(std::move(some)), rows_(some_) {}
-  OpenRows(const OpenRows&) = delete;
-  OpenRows& operator=(const OpenRows&) = delete;
-
-  operator std::span<const Row>() const { return rows_; }
-
- private:
-  std::vector<Row> some_;
-  std::span<const Row> rows_;
-};
 
 /// What a complex is made of.
 struct Making {
@@ -48,15 +32,14 @@ struct Making {
 
   /// Those of the shape that are open.
   template <std::size_t N>
-  [[nodiscard]] OpenRows<std::array<Index, N>> open(
-      const std::vector<std::array<Index, N>>& simplices) const {
+  [[nodiscard]] GivenSimplices<N> open(const std::vector<std::array<Index, N>>& simplices) const {
     if (mask == nullptr) return simplices;
     return mask->open(simplices);
   }
   /// What belongs to them.
   template <std::size_t N, class Row>
-  [[nodiscard]] OpenRows<Row> open(const std::vector<std::array<Index, N>>& simplices,
-                                   const std::vector<Row>& rows) const {
+  [[nodiscard]] Given<Row> open(const std::vector<std::array<Index, N>>& simplices,
+                                const std::vector<Row>& rows) const {
     if (mask == nullptr) return rows;
     return mask->open_rows(std::span<const std::array<Index, N>>(simplices), rows);
   }
@@ -116,4 +99,4 @@ struct MixedPieces {
   std::vector<Index> simplex;  ///< likewise
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -7,24 +7,28 @@
 #include "shape/shape_state.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
-// May simplices measure an edge that they share in two ways?
+// Calls use(sides) where simplices may measure an edge that they share in two ways.
+void with_sides(auto& metric, const auto& use) {
+  std::visit(
+      [&](auto& of) {
+        if constexpr (requires { of.agreement; })
+          if (of.agreement.sides == metric::Sides::own) use(of.agreement.sides);
+      },
+      metric);
+}
+
 bool keeps_sides(const metric::Metric& metric) {
-  if (const auto* tensors = std::get_if<metric::SimplexTensors>(&metric))
-    return tensors->agreement.sides == metric::Sides::own;
-  if (const auto* speeds = std::get_if<metric::SimplexSpeeds>(&metric))
-    return speeds->agreement.sides == metric::Sides::own;
-  return false;
+  bool keeps = false;
+  with_sides(metric, [&](metric::Sides) { keeps = true; });
+  return keeps;
 }
 
 // With one length an edge, the mean of its simplices.
 metric::Metric smoothed(metric::Metric metric) {
-  if (!keeps_sides(metric)) return metric;
-  if (auto* tensors = std::get_if<metric::SimplexTensors>(&metric))
-    tensors->agreement.sides = metric::Sides::mean;
-  if (auto* speeds = std::get_if<metric::SimplexSpeeds>(&metric))
-    speeds->agreement.sides = metric::Sides::mean;
+  with_sides(metric, [](metric::Sides& sides) { sides = metric::Sides::mean; });
   return metric;
 }
 
@@ -93,8 +97,6 @@ MeasuredLengths AnyShape::measure(const metric::Metric& metric) const {
   if (const auto* surface = std::get_if<io::Triangles>(&data())) {
     lengths.refracts = keeps_sides(metric);
     lengths.triangles = metric::triangle_lengths(surface->positions, surface->triangles, metric);
-    lengths.violations =
-        metric::find_violations(std::span<const std::array<double, 3>>(lengths.triangles));
   } else if (const auto* solid = std::get_if<io::Tets>(&data())) {
     lengths.refracts = has_regions(*solid, metric);
     if (lengths.refracts) {
@@ -102,8 +104,6 @@ MeasuredLengths AnyShape::measure(const metric::Metric& metric) const {
     } else {
       lengths.smoothed = keeps_sides(metric);
       lengths.tets = metric::tet_lengths(solid->positions, solid->tets, smoothed(metric));
-      lengths.violations =
-          metric::find_violations(std::span<const std::array<double, 6>>(lengths.tets));
     }
   } else if (const auto* wireframe = std::get_if<io::Edges>(&data())) {
     lengths.edges = wireframe->lengths.empty()
@@ -112,6 +112,7 @@ MeasuredLengths AnyShape::measure(const metric::Metric& metric) const {
   } else {
     lengths.speeds = speeds_of(*this, metric);
   }
+  lengths.violations = violations_in(lengths);
   return lengths;
 }
 

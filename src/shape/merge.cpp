@@ -15,6 +15,10 @@
 #include "shape/words.hpp"
 
 namespace plexway {
+using namespace detail;
+
+namespace detail {
+
 namespace {
 
 using Place = std::array<double, 3>;
@@ -84,6 +88,8 @@ void merge_vertices(AnyShape::State& state, double tolerance) {
       state.data);
 }
 
+}  // namespace detail
+
 AnyShape AnyShape::merged(double tolerance) const {
   support(Reading::merging, {.held = kind(), .wanted = kind(), .positions = !positions().empty()})
       .require();
@@ -101,6 +107,8 @@ std::size_t AnyShape::merged_count() const {
   for (Index v = 0; v < state_->merged.size(); ++v) count += state_->merged[v] != v;
   return count;
 }
+
+namespace detail {
 
 namespace {
 
@@ -133,6 +141,8 @@ std::string collapsed_sentence(const AnyShape& shape) {
               ? " (" + first + ") has a corner twice and is left out"
               : " (" + first + " is the first) have a corner twice and are left out");
 }
+
+}  // namespace detail
 
 std::shared_ptr<const Mask> without_collapsed(const AnyShape& shape,
                                               std::shared_ptr<const Mask> mask) {

@@ -11,7 +11,7 @@
 #include "complexes/common/nearby.hpp"
 #include "shape/words.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 /// A piece, and which of the shape's vertices it has.
@@ -152,4 +152,4 @@ MixedPieces<Real>::MixedPieces(const MixedShape& shape, std::span<const double> 
 template struct MixedPieces<float>;
 template struct MixedPieces<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

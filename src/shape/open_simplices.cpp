@@ -2,7 +2,6 @@
 
 #include <span>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "shape/shape_state.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 void check(const Mask& mask, const AnyShape& shape) {
@@ -96,7 +96,7 @@ void OpenSimplices::require(const Source& source) const {
   const auto check = [&](Index v) {
     if (v < reached_.size() && !reached(v))
       throw UsageError("vertex " + std::to_string(v) +
-                       " is masked, or cut off by the mask: no path passes there");
+                       " is masked, or in no simplex that is open: no path passes there");
   };
   const auto number = [&](Index simplex) { static_cast<void>(numbered(simplex)); };
   each_place(

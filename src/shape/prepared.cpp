@@ -14,13 +14,14 @@
 #include "complexes/common/disjoint_sets.hpp"
 #include "complexes/common/kept_parts.hpp"
 #include "executors/checks.hpp"
+#include "shape/arguments/arguments.hpp"
 #include "shape/kept_build.hpp"
 #include "shape/make_complex.hpp"
 #include "shape/prepared_kind.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/words.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 // Rows of four vertices may be meant as quads.
@@ -59,18 +60,15 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   using Base = PreparedKind<TriangleMesh<Real>>;
 
  public:
-  PreparedSurface(const AnyShape& shape, const BuildOptions& options,
-                  const MeasuredLengths* lengths)
-      : Base(shape, lengths != nullptr),
-        kept_(options.lengths),
-        lengths_(lengths),
+  PreparedSurface(const AnyShape& shape, const BuildOptions& options)
+      : Base(shape, options.lengths != nullptr || shape.lengths() != nullptr),
+        lengths_(options.lengths),
         mask_(options.mask),
         threads_(options.threads),
         left_open_(options.triangulation == Triangulation::automatic),
         made_(make_surface<Real>(options.triangulation, making(), report_)) {}
   PreparedSurface(const AnyShape& shape, Triangulation asked, KeptIn& in)
       : Base(shape, shape.lengths() != nullptr),
-        lengths_(shape.lengths()),
         left_open_(asked == Triangulation::automatic),
         made_(open(in, report_)) {
     const std::size_t own = made_.mesh.vertex_count() - report_.inserted_vertices;
@@ -118,7 +116,10 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   }
 
  private:
-  [[nodiscard]] Making making() const { return {this->shape_, lengths_, mask_.get(), threads_}; }
+  [[nodiscard]] Making making() const {
+    return {this->shape_, lengths_ ? lengths_.get() : this->shape_.lengths(), mask_.get(),
+            threads_};
+  }
   static TriangulatedSurface<Real> open(KeptIn& in, TriangulationReport& report) {
     std::uint32_t done = 0;
     bool delaunay = false;
@@ -144,7 +145,7 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   Placed place(const SourceList& sources, SolveRoom& room, AnyField& field) const override {
     field.triangulation = report_;
     if (!made_.delaunay) return {&made_.mesh, sources, field};
-    if (!sources.only_points() && has_shapes(sources.sources())) {
+    if (!sources.only_points() && have_shapes(this->shape_, sources.sources())) {
       support(left_open_ ? Triangulation::automatic : Triangulation::delaunay, SourceKind::curve)
           .require();
       field.triangulation = {};
@@ -168,13 +169,6 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
     return *input_;
   }
 
-  static bool has_shapes(std::span<const Source> sources) {
-    return std::any_of(sources.begin(), sources.end(), [](const Source& source) {
-      return std::holds_alternative<CurveSource>(source) ||
-             std::holds_alternative<SimplexSource>(source);
-    });
-  }
-
   // Where a point of the input is in the other triangles, which would take what lies outside of its
   // triangle to the nearest place.
   PointSource moved(const PointSource& point) const {
@@ -183,21 +177,12 @@ class PreparedSurface final : public PreparedKind<TriangleMesh<Real>> {
   }
 
   SourceList moved(const SourceList& sources, SolveRoom& room) const {
-    if (sources.only_points()) {
-      room.points.clear();
-      for (const PointSource& point : sources.points()) room.points.push_back(moved(point));
-      return SourceList(std::span<const PointSource>(room.points));
-    }
-    room.sources.assign(sources.sources().begin(), sources.sources().end());
-    for (Source& source : room.sources) {
-      if (auto* point = std::get_if<PointSource>(&source)) *point = moved(*point);
-      if (auto* ball = std::get_if<BallSource>(&source)) ball->centre = moved(ball->centre);
-    }
-    return SourceList(std::span<const Source>(room.sources));
+    const auto same = [](Index) {};
+    return room.moved(
+        sources, [&](PointSource& point) { point = moved(point); }, same, same);
   }
 
-  std::shared_ptr<const MeasuredLengths> kept_;
-  const MeasuredLengths* lengths_;
+  std::shared_ptr<const MeasuredLengths> lengths_;  // null: the shape's
   std::shared_ptr<const Mask> mask_;
   int threads_ = 0;
   bool left_open_;
@@ -265,7 +250,7 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
       Path path = paths_.trace(inner(point), options);
       for (PathPoint& at : path.points) at.simplex = outer_[at.simplex];
       if (const OpenSimplices* const open = of_.open()) open->outside(path);
-      plexway::place(path, this->shape_);
+      detail::place(path, this->shape_);
       return path;
     }
 
@@ -324,17 +309,9 @@ class PreparedMixed final : public PreparedKind<MixedComplex<Real>> {
   }
 
   SourceList moved(const SourceList& sources, SolveRoom& room) const {
-    if (sources.only_points()) {
-      room.points.assign(sources.points().begin(), sources.points().end());
-      for (PointSource& point : room.points) move(point);
-      return SourceList(std::span<const PointSource>(room.points));
-    }
-    room.sources.assign(sources.sources().begin(), sources.sources().end());
-    for (Source& source : room.sources)
-      each_place(
-          source, [&](PointSource& point) { move(point); }, [&](Index& v) { v = vertex(v); },
-          [&](Index& s) { s = simplex(s); });
-    return SourceList(std::span<const Source>(room.sources));
+    return room.moved(
+        sources, [&](PointSource& point) { move(point); }, [&](Index& v) { v = vertex(v); },
+        [&](Index& s) { s = simplex(s); });
   }
 
   // Of simplices that vertices join, or vertices that are one.
@@ -384,7 +361,7 @@ std::shared_ptr<Prepared> prepare_as(const AnyShape& shape, const BuildOptions& 
       [&](const auto& data) -> std::shared_ptr<Prepared> {
         using Data = std::decay_t<decltype(data)>;
         if constexpr (std::is_same_v<Data, io::Triangles>) {
-          return std::make_shared<PreparedSurface<Real>>(shape, options, lengths);
+          return std::make_shared<PreparedSurface<Real>>(shape, options);
         } else if constexpr (std::is_same_v<Data, MixedShape>) {
           std::vector<double> speeds = lengths == nullptr ? std::vector<double>() : lengths->speeds;
           if (making.mask == nullptr)
@@ -481,4 +458,4 @@ std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOption
   return made;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -21,7 +20,7 @@
 #include <plexway/executors/gl.hpp>
 #endif
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Workspaces that wait for the next solve. A solve takes one, or a new one where all are taken,
 /// and brings it back: as many are held as solves ran at once.
@@ -97,6 +96,20 @@ struct SolveRoom {
     return *own;
   }
   [[nodiscard]] std::size_t bytes() const;
+
+  /// The sources with their places moved, by what each_place calls.
+  template <class Point, class Vertex, class Simplex>
+  [[nodiscard]] SourceList moved(const SourceList& from, const Point& point, const Vertex& vertex,
+                                 const Simplex& simplex) {
+    if (from.only_points()) {
+      points.assign(from.points().begin(), from.points().end());
+      for (PointSource& one : points) point(one);
+      return SourceList(std::span<const PointSource>(points));
+    }
+    sources.assign(from.sources().begin(), from.sources().end());
+    for (Source& one : sources) each_place(one, point, vertex, simplex);
+    return SourceList(std::span<const Source>(sources));
+  }
 };
 
 /// What is solved for a field of the shape.
@@ -166,9 +179,13 @@ class Prepared : public std::enable_shared_from_this<Prepared> {
   mutable Workspaces<SolveRoom> rooms_;
 };
 
+}  // namespace plexway::detail
+
+namespace plexway {
+
 struct AnyDomain::State {
   AnyShape shape;
-  std::shared_ptr<const Prepared> prepared;
+  std::shared_ptr<const detail::Prepared> prepared;
   BuildOptions options;  // as requested, without progress
   double build_seconds = 0;
 };
@@ -182,6 +199,10 @@ struct AnyPathField::State {
   [[nodiscard]] virtual std::vector<std::array<double, 3>> gradient() const = 0;
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
+
+}  // namespace plexway
+
+namespace plexway::detail {
 
 /// Builds the complex of a shape. `shape` is kept.
 std::shared_ptr<const Prepared> prepare(const AnyShape& shape, const BuildOptions& options);
@@ -208,4 +229,4 @@ class LinearField : public AnyPathField::State {
   AnyShape shape_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

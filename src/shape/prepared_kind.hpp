@@ -16,7 +16,7 @@
 #include "shape/shape_state.hpp"
 #include "shape/with_executor.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Where paths are drawn; lengths of their own are not those between positions.
 inline std::span<const std::array<double, 3>> path_places(const AnyShape& shape, bool measured) {
@@ -155,4 +155,4 @@ class PreparedKind : public Prepared {
   bool measured_;  // by a metric: positions do not tell lengths
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

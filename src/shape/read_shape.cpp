@@ -15,13 +15,14 @@
 #include "io/names.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/boundary.hpp"
-#include "shape/fill.hpp"
+#include "shape/files.hpp"
 #include "shape/kept_build.hpp"
 #include "shape/modules/module.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/words.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 using Data = AnyShape::Data;
@@ -131,6 +132,16 @@ class Asked {
     ask(options_.merge.has_value(), Reading::merging, name("merge"), use);
   }
 
+  // Of a shape that is read strictly nothing may be left out, guessed or repaired.
+  void require_strict(const AnyShape& shape) const {
+    if (!options_.strict) return;
+    std::string cause = shape.report().notes.empty() ? "" : shape.report().notes.front();
+    if (!shape.collapsed().empty()) cause = collapsed_sentence(shape);
+    if (!cause.empty())
+      throw InputError(shape.file().string() + ": " + cause + ", which " + name("strict") +
+                       " refuses");
+  }
+
  private:
   static void ask(bool given, Reading reading, const std::string& names, const FileUse& use) {
     if (given) require(names, support(reading, use));
@@ -201,7 +212,6 @@ class ShapeFile {
   }
   void take_level_set(bool surface);
   void fill();
-  void require_strict(const AnyShape& shape) const;
 
   std::string file_;
   const ReadOptions& options_;
@@ -276,16 +286,8 @@ AnyShape ShapeFile::read() {
   }
   if (options_.merge) merge_vertices(state_, *options_.merge);
   AnyShape shape = AnyShape::of(std::move(state_));
-  if (options_.strict) require_strict(shape);
+  asked_.require_strict(shape);
   return shape;
-}
-
-// Nothing may be left out, guessed or repaired.
-void ShapeFile::require_strict(const AnyShape& shape) const {
-  std::string cause = shape.report().notes.empty() ? "" : shape.report().notes.front();
-  if (!shape.collapsed().empty()) cause = collapsed_sentence(shape);
-  if (!cause.empty())
-    throw InputError(file_ + ": " + cause + ", which " + asked_.name("strict") + " refuses");
 }
 
 void ShapeFile::fill() {
@@ -369,7 +371,9 @@ AnyShape AnyShape::read(std::span<const std::filesystem::path> files, double tol
   state.load_seconds = loading.seconds();
   state.file = names;
   state.data = std::move(shape);
-  return of(std::move(state));
+  AnyShape made = of(std::move(state));
+  asked.require_strict(made);
+  return made;
 }
 
 AnyShape AnyShape::read(const std::filesystem::path& file, const ReadOptions& options) {

@@ -1,4 +1,4 @@
-#include "shape/result_files.hpp"
+#include "shape/files.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@
 #include "shape/arguments/arguments.hpp"
 #include "shape/shape_state.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 using io::OutputFile;
@@ -164,4 +164,4 @@ void check_partitioned(const AnyShape& shape, const std::filesystem::path& file)
   require(file.string(), support(Purpose::parts, shape));
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <variant>
 
@@ -19,6 +18,8 @@
 #include "shape/warnings/survey.hpp"
 
 namespace plexway {
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t most_dots = 200;
@@ -115,6 +116,8 @@ ShapeScene::ShapeScene(const AnyShape& shape, const SceneContent& content) {
   if (!content.label.empty()) dots.colour = {35, 40, 50};
   scene_.dots = {std::move(dots)};
 }
+
+namespace detail {
 
 void fill_page(io::Page& page, const AnyShape& shape, const SceneContent& content) {
   page.positions = shape.positions();
@@ -226,5 +229,7 @@ std::vector<std::array<double, 3>> cloud_slopes(std::span<const std::array<doubl
   }
   return found;
 }
+
+}  // namespace detail
 
 }  // namespace plexway

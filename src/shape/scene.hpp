@@ -9,7 +9,7 @@
 #include <plexway/shape/scene.hpp>
 #include <plexway/shape/shape.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A domain of any kind on a page, with what a picture would show of it; of solids the skin, or its
 /// edges where `content.look_inside`. Refers to `shape` and to the spans of `content`. Throws
@@ -28,4 +28,4 @@ char probable_up(const AnyShape& shape);
     std::span<const std::array<double, 3>> points, std::span<const std::array<double, 3>> normals,
     const Neighbours& neighbours, std::span<const double> value);
 
-}  // namespace plexway
+}  // namespace plexway::detail

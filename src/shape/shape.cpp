@@ -13,13 +13,15 @@
 #include "complexes/common/closest_point.hpp"
 #include "io/names.hpp"
 #include "shape/arguments/arguments.hpp"
-#include "shape/fill.hpp"
+#include "shape/files.hpp"
 #include "shape/kept_build.hpp"
 #include "shape/modules/module.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/words.hpp"
 
 namespace plexway {
+using namespace detail;
+
 namespace {
 
 constexpr DomainKind kind_of(const AnyShape::Data& data) {
@@ -48,19 +50,15 @@ void check_count(std::size_t rows, std::size_t simplices, std::string_view what)
     throw InputError(std::to_string(rows) + " rows of lengths for " + counted(simplices, what));
 }
 
-// The better of the best so far and another of `first` on.
-void take(SimplexPoint& best, SimplexPoint other, std::size_t first) {
-  if (!(other.squared_distance < best.squared_distance)) return;
-  best = other;
-  best.simplex += first;
-}
-
 SimplexPoint closest_of(const AnyShape& shape, const std::array<double, 3>& point) {
   SimplexPoint best;
   std::size_t first = 0;
   for (const io::Cells& cells : shape.state().cells) {
     const auto look = [&](const auto& rows) {
-      take(best, closest_point(shape.positions(), rows, point), first);
+      const SimplexPoint found = closest_point(shape.positions(), rows, point);
+      if (!(found.squared_distance < best.squared_distance)) return;
+      best = found;
+      best.simplex += first;
     };
     if (cells.corners == 2) look(rows_of<2>(cells));
     if (cells.corners == 3) look(rows_of<3>(cells));
@@ -96,6 +94,7 @@ AnyShape::Points places_of(const SimplexShape& shape) {
 
 // What is given as arrays may name any vertex.
 AnyShape checked(AnyShape::State state, std::optional<std::size_t> lengths = std::nullopt) {
+  if (state.lengths) state.lengths->violations = violations_in(*state.lengths);
   AnyShape shape = AnyShape::of(std::move(state));
   const bool simplices = shape.kind() == DomainKind::simplices;
   for (const io::Cells& cells : shape.state().cells)
@@ -144,11 +143,15 @@ AnyShape AnyShape::of(State state) {
   return AnyShape(made);
 }
 
+namespace detail {
+
 metric::Violations violations_in(const MeasuredLengths& lengths) {
   if (lengths.tets.empty())
     return metric::find_violations(std::span<const std::array<double, 3>>(lengths.triangles));
   return metric::find_violations(std::span<const std::array<double, 6>>(lengths.tets));
 }
+
+}  // namespace detail
 
 AnyShape AnyShape::surface(Points positions, std::vector<std::array<Index, 3>> triangles) {
   return checked(state_of(io::Triangles{std::move(positions), std::move(triangles)}));
@@ -168,7 +171,6 @@ AnyShape AnyShape::surface(std::size_t vertices, std::vector<std::array<Index, 3
   State state = state_of(io::Triangles{{}, std::move(triangles)}, vertices);
   const std::size_t rows = lengths.size();
   state.lengths.emplace().triangles = std::move(lengths);
-  state.lengths->violations = violations_in(*state.lengths);
   return checked(std::move(state), rows);
 }
 
@@ -177,7 +179,6 @@ AnyShape AnyShape::solid(std::size_t vertices, std::vector<std::array<Index, 4>>
   State state = state_of(io::Tets{{}, std::move(tets)}, vertices);
   const std::size_t rows = lengths.size();
   state.lengths.emplace().tets = std::move(lengths);
-  state.lengths->violations = violations_in(*state.lengths);
   return checked(std::move(state), rows);
 }
 
@@ -331,6 +332,8 @@ void AnyShape::write_field(const std::filesystem::path& out, std::span<const dou
                            estimates && !positions().empty() ? error : std::span<const double>()});
 }
 
+namespace detail {
+
 FieldCells::FieldCells(const AnyShape& shape) {
   if (const CloudShape* const cloud = shape.cloud()) {
     lists_[0].resize(shape.vertices());
@@ -354,6 +357,8 @@ FieldCells::FieldCells(const AnyShape& shape) {
     if (!list.empty()) all.push_back({corners, list});
   }
 }
+
+}  // namespace detail
 
 std::span<const std::string_view> AnyShape::field_extensions(DomainKind kind) {
   static const auto with = [](std::string_view more) {

@@ -15,9 +15,13 @@
 #include "io/field/field_formats.hpp"
 #include "shape/stopwatch.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 struct KeptBuild;
+
+}  // namespace plexway::detail
+
+namespace plexway {
 
 struct AnyShape::State {
   std::filesystem::path file;
@@ -28,9 +32,9 @@ struct AnyShape::State {
   std::size_t vertices = 0;
   double load_seconds = 0;
   std::optional<double> mesh_seconds, neighbour_seconds;
-  std::shared_ptr<const KeptBuild> kept;  ///< of a prepared file
-  io::FileReport report;                  ///< of what the file has
-  std::vector<Index> merged;              ///< AnyShape::merged_vertices
+  std::shared_ptr<const detail::KeptBuild> kept;  ///< of a prepared file
+  io::FileReport report;                          ///< of what the file has
+  std::vector<Index> merged;                      ///< AnyShape::merged_vertices
   double merge_tolerance = 0;
 
   ///@{
@@ -41,6 +45,10 @@ struct AnyShape::State {
   Points places;  ///< of a SimplexShape of three coordinates or fewer
   ///@}
 };
+
+}  // namespace plexway
+
+namespace plexway::detail {
 
 /// Calls use(list) with the simplices that a shape holds, list after list in the order of their
 /// numbers; a SimplexShape has no lists.
@@ -117,4 +125,4 @@ void find_collapsed(AnyShape::State& state);
 /// "2 triangles have a corner twice and are left out, 17 is the first"; empty where none has.
 [[nodiscard]] std::string collapsed_sentence(const AnyShape& shape);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -24,6 +24,7 @@
 
 // The two verbs on a domain of any kind.
 namespace plexway {
+using namespace detail;
 
 AnyField AnyDomain::solve(const AnyExecutor& executor, const SourceList& sources,
                           const PropagateOptions& options) const {
@@ -39,24 +40,24 @@ void AnyDomain::solve(const AnyExecutor& executor, const SourceList& sources,
                  [&] { state_->prepared->solve(executor, inside.list(), options, field); });
 }
 
+namespace detail {
+
 /// From here on kind, precision and executor are types.
 void Prepared::solve(const AnyExecutor& executor, const SourceList& sources,
                      const PropagateOptions& options, AnyField& field) const {
   Workspaces<SolveRoom>::Taken taken(rooms_);
   SolveRoom& room = *taken;
   const Placed at = place(sources, room, field);
-  const auto solve_on = [&](const auto& complex) {
-    using Complex = std::decay_t<decltype(complex)>;
-    with_executor<Complex>(executor, [&](const auto& chosen) {
-      using Own = WorkspaceOf<std::decay_t<decltype(chosen)>, Complex>;
-      plexway::solve(chosen, complex, at.sources, options, room.workspace<Own>(),
-                     as<DistanceField<RealOf<Complex>>>(at.field.data));
-    });
-  };
   std::visit(
       [&](const auto& complex) {
-        if constexpr (!std::is_same_v<std::decay_t<decltype(complex)>, std::monostate>)
-          solve_on(*complex);
+        if constexpr (requires { *complex; }) {
+          using Complex = std::decay_t<decltype(*complex)>;
+          with_executor<Complex>(executor, [&](const auto& chosen) {
+            using Own = WorkspaceOf<std::decay_t<decltype(chosen)>, Complex>;
+            plexway::solve(chosen, *complex, at.sources, options, room.workspace<Own>(),
+                           as<DistanceField<RealOf<Complex>>>(at.field.data));
+          });
+        }
       },
       at.complex);
   take_back(room, field);
@@ -75,6 +76,8 @@ std::size_t SolveRoom::bytes() const {
   return std::apply([&](const auto&... own) { return (distances + ... + bytes_of(own)); },
                     workspaces);
 }
+
+}  // namespace detail
 
 namespace {
 
@@ -98,12 +101,11 @@ void AnyDomain::solve_each(const AnyExecutor& executor, const SourceList& source
     return;
   }
   std::mutex taking;
-  detail::share_out_solves<Own>(*team, sources.size(), options,
-                                [&](std::size_t k, Own& own, std::size_t) {
-                                  solve(Serial{}, sources.only(k), own.options, own.field);
-                                  const std::scoped_lock lock(taking);
-                                  take(k, own.field);
-                                });
+  share_out_solves<Own>(*team, sources.size(), options, [&](std::size_t k, Own& own, std::size_t) {
+    solve(Serial{}, sources.only(k), own.options, own.field);
+    const std::scoped_lock lock(taking);
+    take(k, own.field);
+  });
 }
 
 namespace {
@@ -112,7 +114,7 @@ template <class Real>
 bool solve_rows(const AnyDomain& domain, const AnyExecutor& executor, const SourceList& sources,
                 const PropagateOptions& options, std::span<Real> rows) {
   const std::size_t vertices = domain.vertices();
-  detail::check_rows(rows.size(), sources.size(), vertices);
+  check_rows(rows.size(), sources.size(), vertices);
   bool complete = true;
   domain.solve_each(executor, sources, options, [&](std::size_t k, const AnyField& field) {
     std::visit(
@@ -216,8 +218,8 @@ std::size_t AnyDomain::bytes() const { return state_->prepared->bytes(); }
 Support AnyDomain::support(const AnyExecutor& executor, const SourceList& sources,
                            const PropagateOptions& options) const {
   const ExecutorKind kind = std::visit([](const auto& e) { return e.kind; }, executor);
-  return detail::support_of(state_->prepared->combination(kind), state_->prepared->metric(),
-                            sources, options);
+  return support_of(state_->prepared->combination(kind), state_->prepared->metric(), sources,
+                    options);
 }
 
 AnyPathField AnyDomain::path_field(const AnyExecutor& executor,
@@ -247,6 +249,8 @@ std::size_t AnyPathField::bytes() const { return state_->bytes(); }
 
 AnyComplex complex_of(const AnyDomain& domain) { return domain.state().prepared->complex(); }
 
+namespace detail {
+
 RowComplex row_complex(const AnyDomain& domain, std::span<const PointSource> rows) {
   std::vector<PointSource> inside(rows.begin(), rows.end());
   if (const OpenSimplices* const open = domain.open_simplices())
@@ -256,5 +260,7 @@ RowComplex row_complex(const AnyDomain& domain, std::span<const PointSource> row
     found.rows.assign(rows.begin(), rows.end());
   return found;
 }
+
+}  // namespace detail
 
 }  // namespace plexway

@@ -7,7 +7,7 @@
 #include <plexway/error.hpp>
 #include <plexway/support.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Has this build teams of threads? Where it has none their code is not compiled in either, which
 /// is a seventh of the page's module.
@@ -44,4 +44,4 @@ void with_executor(const AnyExecutor& executor, const Use& use) {
       executor);
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-namespace plexway {
+namespace plexway::detail {
 
 std::string singular(std::string_view plural) {
   const auto swapped = [&](std::string_view end, std::string_view with) {
@@ -33,4 +33,4 @@ std::string short_time(double seconds) {
   return text;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// "triangle" for "triangles"; knows "vertices" and "tetrahedra" too.
 std::string singular(std::string_view plural);
@@ -24,4 +24,4 @@ inline std::string exact_number(double value) {
   return text.data();
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
 namespace plexway::strings {
+using namespace detail;
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -22,8 +22,8 @@ struct Bend {
 template <class Real>
 class Finder {
  public:
-  Finder(const TetMesh<Real>& mesh, std::span<const Point> points, const Tolerances& near)
-      : tets_(mesh.tets().first(mesh.tet_count())), mesh_(mesh), points_(points), near_(near) {}
+  Finder(const TetMesh<Real>& mesh, std::span<const Point> points)
+      : tets_(mesh.tets().first(mesh.tet_count())), mesh_(mesh), points_(points) {}
 
   Boundary find() {
     find_faces();
@@ -63,7 +63,7 @@ class Finder {
     return static_cast<Index>(std::lower_bound(keys_.begin(), keys_.end(), 4 * tet + side) -
                               keys_.begin());
   }
-  static Index corner_of(const TetRecord<Real>& tet, Index vertex) {
+  static Index corner_of(const TetRecord& tet, Index vertex) {
     return static_cast<Index>(std::find(tet.corner, tet.corner + 4, vertex) - tet.corner);
   }
 
@@ -89,7 +89,7 @@ class Finder {
     while (other.corner[m] == a || other.corner[m] == b) ++m;
     face.across[k] = g;
     other.across[m] = f;
-    if (turned > pi + near_.reflex && norm(points_[b] - points_[a]) > 0)
+    if (turned > pi + Tolerances::reflex && norm(points_[b] - points_[a]) > 0)
       bends_.push_back({f, k, {a, b}, {face.normal, other.normal}, turned});
   }
   // The angle of a tetrahedron at its edge a b.
@@ -137,7 +137,7 @@ class Finder {
 
   [[nodiscard]] bool alike(const Point& a, const Point& b) const {
     const Point d = a - b;
-    return dot(d, d) < near_.same * near_.same;
+    return dot(d, d) < Tolerances::same * Tolerances::same;
   }
   // Do two edges from a vertex lie in one line, between the same two planes?
   [[nodiscard]] bool in_row(const Bend& a, const Bend& b, Index vertex) const {
@@ -200,10 +200,9 @@ class Finder {
     return place;
   }
 
-  std::span<const TetRecord<Real>> tets_;
+  std::span<const TetRecord> tets_;
   const TetMesh<Real>& mesh_;
   std::span<const Point> points_;
-  const Tolerances& near_;
   Boundary boundary_;
   std::vector<Index> keys_;  // 4 t + side of each face, ascending
   std::vector<Bend> bends_;
@@ -213,24 +212,11 @@ class Finder {
 }  // namespace
 
 template <class Real>
-Tolerances tolerances_of(const TetMesh<Real>& mesh) {
-  double reach = 1;
-  for (const auto& p : mesh.points())
-    reach = std::max({reach, std::abs(double(p.x)), std::abs(double(p.y)), std::abs(double(p.z))});
-  const double rounding = reach * double(std::numeric_limits<Real>::epsilon());
-  return {std::max(1e-10, 2 * rounding), std::max(1e-6, 20 * rounding),
-          std::max(1e-7, 8 * rounding), std::max(1e-7, 16 * rounding)};
+Boundary find_boundary(const TetMesh<Real>& mesh, std::span<const Point> points) {
+  return Finder<Real>(mesh, points).find();
 }
 
-template <class Real>
-Boundary find_boundary(const TetMesh<Real>& mesh, std::span<const Point> points,
-                       const Tolerances& near) {
-  return Finder<Real>(mesh, points, near).find();
-}
-
-template Tolerances tolerances_of(const TetMesh<float>&);
-template Tolerances tolerances_of(const TetMesh<double>&);
-template Boundary find_boundary(const TetMesh<float>&, std::span<const Point>, const Tolerances&);
-template Boundary find_boundary(const TetMesh<double>&, std::span<const Point>, const Tolerances&);
+template Boundary find_boundary(const TetMesh<float>&, std::span<const Point>);
+template Boundary find_boundary(const TetMesh<double>&, std::span<const Point>);
 
 }  // namespace plexway::strings

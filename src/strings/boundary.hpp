@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,15 +12,13 @@
 /// The boundary of a solid as strings see it: faces, what joins them, and where strings may bend.
 namespace plexway::strings {
 
-/// How exact the coordinates of a solid are, in mean edges.
+/// What counts as flat. Coordinates are in double, in mean edges.
 struct Tolerances {
-  double on;      ///< so near to a plane a point is on it
-  double aside;   ///< so far beside the boundary legs run
-  double reflex;  ///< so much more than pi bends strings (radians)
-  double same;    ///< directions and normals of one row of edges differ by less
+  static constexpr double on = 1e-10;     ///< so near to a plane a point is on it
+  static constexpr double aside = 1e-6;   ///< so far beside the boundary legs run
+  static constexpr double reflex = 1e-7;  ///< so much more than pi bends strings (radians)
+  static constexpr double same = 1e-7;    ///< directions and normals of one row differ by less
 };
-template <class Real>
-Tolerances tolerances_of(const TetMesh<Real>& mesh);
 
 struct Boundary {
   /// Edge k of a face is from corner k + 1 to corner k + 2, so opposite to corner k.
@@ -43,7 +40,6 @@ struct Boundary {
 
 /// Cost: linear in the tetrahedra, and n log n in the boundary.
 template <class Real>
-Boundary find_boundary(const TetMesh<Real>& mesh, std::span<const Point> points,
-                       const Tolerances& near);
+Boundary find_boundary(const TetMesh<Real>& mesh, std::span<const Point> points);
 
 }  // namespace plexway::strings

@@ -34,6 +34,11 @@ class Chains {
     return found;
   }
 
+  /// The same, none if there is no such chain.
+  [[nodiscard]] Index find(Index parent, Index place) const {
+    return table_[slot_of(parent, place)];
+  }
+
   [[nodiscard]] const Link& operator[](Index chain) const { return links_[chain]; }
   [[nodiscard]] bool is_root(Index chain) const { return links_[chain].parent == none; }
   [[nodiscard]] Index source(Index chain) const {

@@ -16,6 +16,7 @@
 /// What hides one point of a flat domain of any dimension from another. As Sight (sight.hpp), but
 /// for how the first touch is found.
 namespace plexway::strings {
+using namespace detail;
 
 /// A point of R^N.
 template <int N>

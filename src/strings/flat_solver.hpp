@@ -17,6 +17,7 @@
 /// Shortest paths in flat domains of any dimension by strings, as Solver (solve.hpp) in solids:
 /// places are faces of N - 2 dimensions.
 namespace plexway::strings {
+using namespace detail;
 
 /// A vertex as a source, or one that a path goes on from.
 struct FlatRoot {
@@ -37,7 +38,7 @@ class FlatSolver {
   /// From vertices; false if the expansions ended before it did.
   bool solve(std::span<const FlatRoot> sources, const Limits& limits) {
     known_.assign(space_->vertices(), {});
-    if (sources.size() > 1 && reach_.empty()) measure_reach();
+    if (reach_.empty() && (limits.radius < infinity || sources.size() > 1)) measure_reach();
     roots_.assign(sources.begin(), sources.end());
     chains_.clear();
     hints_.clear();
@@ -47,7 +48,8 @@ class FlatSolver {
       take(sources[n].vertex, {sources[n].sigma, chains_.root(n), sources[n].source, {}, 0});
     while (!queue_.empty()) {
       const Queue::Offer next = queue_.pop();
-      if (next.distance > limits.radius) break;
+      if (next.distance > limits.radius && next.distance > limits.radius + reach_[next.vertex])
+        continue;
       const Label* found = known_[next.vertex].find(next.chain, next.distance);
       if (found == nullptr) continue;
       const std::size_t expansions = counts_.expansions;
@@ -77,6 +79,7 @@ class FlatSolver {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr double rounding = 1e-9;
   static constexpr double behind = .5;          // a second label, at most so many edges
+  static constexpr double cosine = .99;         // of last legs that are nearer one is of no use
   static constexpr std::size_t most_bends = 6;  // more cost far more and gain next to nothing
 
   /// A bend of a string.
@@ -111,14 +114,14 @@ class FlatSolver {
         const Point way = minus(space_->point(w), space_->point(v));
         longest = std::max(longest, std::sqrt(inner(way, way)));
       }
-      reach_.push_back(Spread::nearest * longest);
+      reach_.push_back(longest);
     }
   }
   [[nodiscard]] double limit(Index vertex, Index source, const Point& last, double length) const {
     return known_[vertex].limit(source, last, spread(vertex), length);
   }
   [[nodiscard]] Spread spread(Index vertex) const {
-    return {behind, reach_.empty() ? 0 : reach_[vertex]};
+    return {behind, reach_.empty() ? 0 : Spread::nearest * reach_[vertex], cosine};
   }
   void take(Index vertex, const Label& label) {
     if (!known_[vertex].take(label, spread(vertex))) return;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -12,6 +11,7 @@
 
 /// A flat domain as strings see it, in any dimension: what SolidSpace is of a solid.
 namespace plexway::strings {
+using namespace detail;
 
 template <int N>
 class FlatSpace {

@@ -2,7 +2,7 @@
 
 #include "strings/to_field.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 using strings::FlatSpace;
 
@@ -33,4 +33,4 @@ template void FlatStrings::solve(const SimplicialComplex<float, 4>&, std::span<c
 template void FlatStrings::solve(const SimplicialComplex<double, 4>&, std::span<const PointSource>,
                                  const PropagateOptions&, DistanceField<double>&);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -13,7 +12,7 @@
 
 #include "strings/flat_solver.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Complexes of four dimensions that lie flat, by strings: between the library's sources, options
 /// and fields, and theirs. What a solve leaves; its memory is used again by the next one.
@@ -35,4 +34,4 @@ class FlatStrings {
   std::vector<strings::FlatRoot> roots_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -9,6 +9,7 @@
 #include "complexes/simplicial/flat_domain.hpp"
 
 namespace plexway::strings {
+using namespace detail;
 
 /// The shortest string between two points over given bending faces, in their order. Between faces
 /// nothing is in its way: that is for others to see to.

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "strings/solver.hpp"
+#include "strings/extender.hpp"
 
 namespace plexway::strings {
 
 // Where a string is held at a vertex it may be shorter past it.
-void Solver::past_corners(Attempt& a, Index to, Outcome& outcome) {
+void Extender::past_corners(Attempt& a, Index to, Outcome& outcome) {
   for (std::size_t k = a.string.bends(); k > 0 && k <= a.string.bends(); --k) {
     const Index vertex = vertex_of(a, k);
     if (vertex == none) continue;
@@ -25,7 +25,7 @@ void Solver::past_corners(Attempt& a, Index to, Outcome& outcome) {
 }
 
 // Of the medium, that a bend inside it is held at.
-Index Solver::vertex_of(const Attempt& a, std::size_t k) const {
+Index Extender::vertex_of(const Attempt& a, std::size_t k) const {
   const Knot& knot = a.string.knots[k];
   const Index m = knot.medium;
   const auto& medium = space_->media()[m];
@@ -37,8 +37,8 @@ Index Solver::vertex_of(const Attempt& a, std::size_t k) const {
 
 // The knots from `begin` to `end` are all at one vertex: the places of the shortest way around it
 // instead.
-bool Solver::past_corner(Attempt& a, Index to, Outcome& outcome, std::size_t begin, std::size_t end,
-                         Index vertex) {
+bool Extender::past_corner(Attempt& a, Index to, Outcome& outcome, std::size_t begin,
+                           std::size_t end, Index vertex) {
   const auto& medium = space_->media()[a.string.knots[begin].medium];
   const Point &at = medium.room->point(vertex), in = a.string.at(begin - 1) - at,
               out = a.string.at(end) - at;
@@ -75,8 +75,8 @@ bool Solver::past_corner(Attempt& a, Index to, Outcome& outcome, std::size_t beg
 }
 
 // Other doors instead of that of a knot, if the string is shorter then.
-bool Solver::instead(Attempt& a, Index to, Outcome& outcome, std::size_t k,
-                     std::span<const Index> doors) {
+bool Extender::instead(Attempt& a, Index to, Outcome& outcome, std::size_t k,
+                       std::span<const Index> doors) {
   other_ = a;
   other_.splits = 0;
   const Point at = a.string.at(k);
@@ -91,7 +91,7 @@ bool Solver::instead(Attempt& a, Index to, Outcome& outcome, std::size_t k,
 
 // A string held at the end of a row in a sheet may be shorter past it, one at a row or a corner
 // through another medium there.
-void Solver::past_media(Attempt& a, Index to, Outcome& outcome) {
+void Extender::past_media(Attempt& a, Index to, Outcome& outcome) {
   for (std::size_t k = a.string.bends(); k > 0; --k) {
     if (k > a.string.bends()) continue;
     const Knot& knot = a.string.knots[k];
@@ -114,7 +114,7 @@ void Solver::past_media(Attempt& a, Index to, Outcome& outcome) {
 }
 
 // The same by two doors of `places_`, through a medium that a knot does not touch.
-void Solver::past_row(Attempt& a, Index to, Outcome& outcome, std::size_t k) {
+void Extender::past_row(Attempt& a, Index to, Outcome& outcome, std::size_t k) {
   const Index before = a.string.knots[k - 1].medium, after = a.string.knots[k].medium;
   const Index q = place_of(a.string.knots[k]), row = space_->kind(q) == Kind::row ? q : none;
   const Point at = a.string.at(k), in = a.string.direction(k - 1), out = a.string.direction(k);
@@ -134,7 +134,7 @@ void Solver::past_row(Attempt& a, Index to, Outcome& outcome, std::size_t k) {
 }
 
 // What is shorter past where a string is held.
-Solver::Outcome Solver::improve(Attempt& a, Index to, Outcome outcome) {
+Extender::Outcome Extender::improve(Attempt& a, Index to, Outcome outcome) {
   past_corners(a, to, outcome);
   if (!plain_) past_media(a, to, outcome);
   return outcome;

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <span>
 #include <vector>
 
 #include <plexway/common/ids.hpp>
@@ -29,8 +29,9 @@ template <class P>
 struct LabelIn {
   double distance = std::numeric_limits<double>::infinity();
   Index chain = none, source = none;
-  P last = {};     ///< its last leg's direction, unit: the field's gradient
-  double leg = 0;  ///< and the time that it takes
+  P last = {};              ///< its last leg's direction, unit: the field's gradient
+  double leg = 0;           ///< and the time that it takes
+  std::uint64_t media = 0;  ///< solids that it leads through, a bit each
 };
 using Label = LabelIn<Point>;
 
@@ -57,6 +58,7 @@ class Queue {
   }
   void clear() { offers_.clear(); }
   [[nodiscard]] bool empty() const { return offers_.empty(); }
+  [[nodiscard]] std::size_t size() const { return offers_.size(); }
   [[nodiscard]] std::size_t bytes() const { return offers_.capacity() * sizeof(Offer); }
 
  private:
@@ -68,11 +70,20 @@ struct Counts {
   std::size_t expansions = 0, labels = 0;
 };
 
+/// Threads that share the work of a solve. How many there are does not change a bit of it.
+struct Threads {
+  using Work = std::function<void(std::size_t, std::size_t)>;
+  std::size_t count = 1;
+  /// Calls work(item, thread) for so many items; none: the calling thread takes all.
+  std::function<void(std::size_t, const Work&)> share;
+};
+
 struct Limits {
   double radius = std::numeric_limits<double>::infinity();
   std::size_t expansions = std::numeric_limits<std::size_t>::max();
   /// Called every 1024 expansions or oftener with how many there were, and how far the front is.
   std::function<void(std::size_t, double)> progress;
+  Threads threads;
 };
 
 /// Which strings of a vertex are of use, in time.
@@ -81,20 +92,26 @@ struct Spread {
   /// to it: where it is acute the circle's centre is no farther, else no point of the longest side.
   static constexpr double nearest = .7072;
 
-  double behind;        ///< of one source the second is at most so much longer than the first
-  double reach;         ///< so far around the vertex others are kept that may be the nearest there
-  double cosine = .99;  ///< between the last legs of two strings of one source
+  double behind;    ///< of one source and media others are at most so much longer than the first
+  double reach;     ///< so far around the vertex others are kept that may be the shortest there
+  double cosine;    ///< at most, between the last legs of any two of one source and media
+  Index own = few;  ///< so many of one source and media at most
+
+  static constexpr Index few = 2, many = 8;
 };
 
-/// A vertex keeps the shortest strings that come to it from different sides, two of a source: one
-/// that is not much longer than the shortest may be the shortest of a neighbour. Of other sources
-/// it keeps all that may be the nearest within reach. In a convex solid all vertices find theirs by
-/// that: a source that is the nearest at one is so all the way from it, thus kept at the nearest
+/// A vertex keeps the shortest strings that come to it from different directions, a few from each
+/// source through each set of solids: one that is not much longer than the shortest may be the
+/// shortest of a neighbour. Two are enough but where edges are sharp (SolidSpace::is_sharp). Of
+/// other sources it keeps all that may be the shortest within reach, and likewise through other
+/// solids, up to four of a source or as many as `own`. In a convex solid all vertices find theirs
+/// by that: a source that is the nearest at one is so all the way from it, thus kept at the nearest
 /// corner of each face that the way passes, and corners of faces in turn share edges.
 template <class P>
 struct VertexLabelsIn {
   using Label = LabelIn<P>;
   static constexpr std::size_t remembered = 6;
+  static constexpr Index most = 4;      ///< strings of one source, or `own` if that is more
   std::vector<Label> labels;            ///< by their distance
   std::array<Index, remembered> tried;  ///< chains of late
   Index next = 0;
@@ -128,40 +145,53 @@ struct VertexLabelsIn {
     tried[next] = chain;
     next = (next + 1) % remembered;
   }
-  /// Strings of a source as long as this, that end in this direction, are of no use; 0 for any
-  /// direction. Not more exact than needed for one of a length.
-  [[nodiscard]] double limit(Index source, const P& last, const Spread& spread,
-                             double length) const {
+  /// Strings of a source, through these media, as long as this, that end in this direction, are of
+  /// no use; 0 for any direction. Not more exact than needed for one of a length.
+  [[nodiscard]] double limit(Index source, const P& last, const Spread& spread, double length,
+                             std::uint64_t media = 0) const {
     double limit = std::numeric_limits<double>::infinity();
-    bool second = false;
+    const Index all = std::max(most, spread.own);
+    Index count = 0, owned = 0;
     for (const Label& l : labels) {
       if (limit <= length || limit <= l.distance) break;
-      limit = std::min(limit, l.distance + (l.source == source ? own_lead(l, last, spread, second)
-                                                               : lead(l, last, spread.reach)));
-      second = second || l.source == source;
+      if (l.source == source && ++count == all) return std::min(limit, l.distance);
+      const bool own = l.source == source && l.media == media;
+      owned += own ? 1 : 0;
+      limit = std::min(limit, l.distance + (own ? own_lead(l, last, spread, owned)
+                                                : lead(l, last, spread.reach)));
     }
     return limit;
   }
   /// Takes a string; false if it is of no use.
   bool take(const Label& label, const Spread& spread) {
-    if (!(label.distance < limit(label.source, label.last, spread, label.distance))) return false;
+    for (const Label& l : labels)
+      if (l.chain == label.chain && !(label.distance < l.distance)) return false;
+    if (!(label.distance < limit(label.source, label.last, spread, label.distance, label.media)))
+      return false;
     std::size_t n = 0;
     while (n < labels.size() && labels[n].distance < label.distance) ++n;
     // Those behind it that are of no use now make room.
-    const auto is_own = [&](const Label& l) { return l.source == label.source; };
+    const auto is_of_source = [&](const Label& l) { return l.source == label.source; };
+    const auto is_own = [&](const Label& l) { return is_of_source(l) && l.media == label.media; };
     const auto end = labels.begin() + static_cast<std::ptrdiff_t>(n);
     const auto first = std::find_if(labels.begin(), end, is_own);
-    bool second = first != end;
-    const double longest = (second ? first->distance : label.distance) + spread.behind;
+    const double longest = (first != end ? first->distance : label.distance) + spread.behind;
     std::size_t kept = n;
+    const auto up_to_here = [&](const auto& is) {
+      return static_cast<Index>(std::count_if(labels.begin(), end, is)) + 1;
+    };
+    const Index all = std::max(most, spread.own);
+    Index count = up_to_here(is_of_source), owned = up_to_here(is_own);
     for (std::size_t k = n; k < labels.size(); ++k) {
       const Label l = labels[k];
       const bool own = is_own(l);
+      if (is_of_source(l) && count == all) continue;
       if (own && (l.chain == label.chain || !(l.distance < longest))) continue;
-      if (!(l.distance < label.distance + (own ? own_lead(label, l.last, spread, second)
+      if (!(l.distance < label.distance + (own ? own_lead(label, l.last, spread, owned)
                                                : lead(label, l.last, spread.reach))))
         continue;
-      second = second || own;
+      owned += own ? 1 : 0;
+      count += is_of_source(l) ? 1 : 0;
       labels[kept++] = l;
     }
     labels.resize(kept);
@@ -171,11 +201,11 @@ struct VertexLabelsIn {
   }
 
  private:
-  /// By how much strings of one source that are of use may be longer than one of its two.
-  static double own_lead(const Label& own, const P& other, const Spread& spread, bool second) {
-    return second || cosine_of(own.last, other) >= spread.cosine ? 0 : spread.behind;
+  /// By how much others of one source and media may be longer than the `number`th that is kept.
+  static double own_lead(const Label& own, const P& other, const Spread& spread, Index number) {
+    return number >= spread.own || cosine_of(own.last, other) >= spread.cosine ? 0 : spread.behind;
   }
-  /// And of another source: by as much as they may get nearer within reach at most. A string's
+  /// And of another: by as much as they may get shorter within reach at most. A string's
   /// length grows as its last leg's, the other's is convex.
   static double lead(const Label& own, const P& other, double reach) {
     if (cosine_of(other, other) == 0 || own.leg <= reach / 2) return 2 * reach;

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -14,6 +12,7 @@
 
 /// How a MediaSpace is made: media first, then the places where strings go from one to another.
 namespace plexway::strings {
+using namespace detail;
 
 using Triple = std::array<Index, 3>;
 using Edge = std::array<Index, 2>;

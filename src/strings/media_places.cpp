@@ -1,8 +1,7 @@
-#include <limits>
-
 #include "strings/media_builder.hpp"
 
 namespace plexway::strings {
+using namespace detail;
 
 void MediaSpace::Builder::find_patches() {
   std::map<Edge, std::vector<Index>> at;

@@ -37,8 +37,7 @@ MediaSpace::MediaSpace(const Parts& parts) {
   builder.build();
 }
 
-MediaSpace::MediaSpace(std::shared_ptr<const SolidSpace> solid)
-    : aside_(solid->aside()), places_(solid->places()) {
+MediaSpace::MediaSpace(std::shared_ptr<const SolidSpace> solid) : places_(solid->places()) {
   const std::size_t count = solid->vertices();
   Medium medium{1, true, std::move(solid), {}, 0, 0, {}, {}, {}};
   points_.reserve(count);

@@ -113,6 +113,13 @@ class MediaSpace {
     if (m.is_solid) return m.room->neighbours(n);
     return std::span<const Index>(m.neighbours).subspan(m.begin[n], m.begin[n + 1] - m.begin[n]);
   }
+  /// Of a node in a solid: SolidSpace::is_sharp. Those of wires and sheets, and the point that is
+  /// attached, are not.
+  [[nodiscard]] bool is_sharp(Index node) const {
+    if (node == nodes()) return false;
+    const Medium& m = media_[medium_of_[node]];
+    return m.is_solid && m.room->is_sharp(node - m.first_node);
+  }
 
   [[nodiscard]] Kind kind(Index place) const {
     return place < first_patch_     ? Kind::bend
@@ -175,7 +182,7 @@ class MediaSpace {
   /// Where a leg in a medium ends that comes from `toward` to a place: a little inside.
   [[nodiscard]] Point beside(Index place, Index medium, const Point& at, const Point& toward,
                              const Point& free) const;
-  [[nodiscard]] double aside() const { return aside_; }
+  [[nodiscard]] static constexpr double aside() { return Tolerances::aside; }
 
  private:
   struct Door {
@@ -186,7 +193,7 @@ class MediaSpace {
   /// Doors of corners come last, in the order of `nodes_`.
   [[nodiscard]] Index node_behind(Index door) const { return nodes_[door - doors_.size()]; }
 
-  double unit_ = 1, aside_ = 1e-6;
+  double unit_ = 1;
   Point middle_ = {0, 0, 0};
   std::vector<Point> points_;
   std::vector<Medium> media_;

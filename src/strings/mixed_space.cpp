@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <span>
 #include <utility>
 #include <variant>
 
@@ -12,7 +11,7 @@
 #include "complexes/common/disjoint_sets.hpp"
 #include "complexes/mixed/joined_pieces.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 // Whether a domain's pieces lie in one space, each simplex at a speed of its own, and the parts
 // that they are there.
@@ -115,11 +114,8 @@ class MixedSpace::Builder {
       std::size_t n = 0;
       for (std::size_t j = 1; j < 4; ++j)
         for (std::size_t i = 0; i < j; ++i) {
-          const auto &p = solid.points()[solid.inside_vertex(tet[i])],
-                     &q = solid.points()[solid.inside_vertex(tet[j])];
-          length[n++] =
-              solid.unit() * norm(Point{double(p.x) - double(q.x), double(p.y) - double(q.y),
-                                        double(p.z) - double(q.z)});
+          length[n++] = solid.unit() * norm(solid.points()[solid.inside_vertex(tet[i])] -
+                                            solid.points()[solid.inside_vertex(tet[j])]);
         }
       for (Index& v : tet) v += piece.first_vertex;
       if (!add<4>(tet, length, parts_.tets, parts_.slow_tets)) return false;
@@ -257,4 +253,4 @@ std::shared_ptr<const MixedSpace> MixedSpace::of(const MixedComplex<Real>& domai
 template std::shared_ptr<const MixedSpace> MixedSpace::of(const MixedComplex<float>&);
 template std::shared_ptr<const MixedSpace> MixedSpace::of(const MixedComplex<double>&);
 
-}  // namespace plexway
+}  // namespace plexway::detail

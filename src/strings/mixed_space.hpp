@@ -9,7 +9,7 @@
 
 #include "strings/media_space.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A mixed domain as strings see it: its simplices as media in one space. Kept with the domain.
 struct MixedSpace {
@@ -49,4 +49,4 @@ struct MixedSpace {
   std::vector<Range> pieces_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

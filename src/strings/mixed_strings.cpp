@@ -5,7 +5,7 @@
 
 #include "strings/to_field.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 // Where a point of a simplex is a vertex of it.
@@ -50,7 +50,7 @@ strings::Source source_of(const MixedSpace& space, const PointSource& given,
 template <class Real>
 void MixedStrings::solve(const MixedComplex<Real>& domain, std::shared_ptr<const MixedSpace> space,
                          std::span<const PointSource> sources, const PropagateOptions& options,
-                         DistanceField<Real>& field) {
+                         const strings::Threads& threads, DistanceField<Real>& field) {
   const strings::MediaSpace& media = *space->media;
   if (!solver_ || space_ != space) {
     solver_ = std::make_unique<strings::Solver>(media);
@@ -62,7 +62,7 @@ void MixedStrings::solve(const MixedComplex<Real>& domain, std::shared_ptr<const
     sources_.push_back(source_of(*space_, s, inside_[sources_.size()]));
   const double unit = media.unit();
   field.complete =
-      solver_->solve(sources_, strings::limits_of(options, unit, domain.simplex_count()));
+      solver_->solve(sources_, strings::limits_of(options, unit, domain.simplex_count(), threads));
   const auto number = [&](Index vertex) { return space_->point[vertex]; };
   strings::to_field(*solver_, domain.vertex_count(), number, unit, sources, options.radius, field);
   field.accuracy = Accuracy::accurate();
@@ -100,9 +100,9 @@ std::size_t MixedStrings::bytes() const {
 
 template void MixedStrings::solve(const MixedComplex<float>&, std::shared_ptr<const MixedSpace>,
                                   std::span<const PointSource>, const PropagateOptions&,
-                                  DistanceField<float>&);
+                                  const strings::Threads&, DistanceField<float>&);
 template void MixedStrings::solve(const MixedComplex<double>&, std::shared_ptr<const MixedSpace>,
                                   std::span<const PointSource>, const PropagateOptions&,
-                                  DistanceField<double>&);
+                                  const strings::Threads&, DistanceField<double>&);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -16,16 +15,16 @@
 #include "strings/solver.hpp"
 
 /// Mixed domains by strings: between the library's sources, options and fields, and theirs.
-namespace plexway {
+namespace plexway::detail {
 
 /// What a solve by strings leaves; its memory is used again by the next one.
 class MixedStrings {
  public:
-  /// By one thread: whatever the executor, the same bits. `space` has media.
+  /// The same bits for any number of threads. `space` has media.
   template <class Real>
   void solve(const MixedComplex<Real>& domain, std::shared_ptr<const MixedSpace> space,
              std::span<const PointSource> sources, const PropagateOptions& options,
-             DistanceField<Real>& field);
+             const strings::Threads& threads, DistanceField<Real>& field);
 
   /// The shortest path to a point; its bends and both ends, from the source on, as the space has
   /// them, and the medium of each leg. No points where no path leads.
@@ -50,4 +49,4 @@ class MixedStrings {
   std::vector<std::vector<strings::Inside>> inside_;  // of each
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -9,6 +10,7 @@
 
 /// Where strings bend: straight rows of edges with more than pi of solid around them, and vertices.
 namespace plexway::strings {
+using namespace detail;
 
 using Point = Vector3<double>;
 
@@ -50,11 +52,18 @@ struct Place {
     const double measured = std::atan2(dot(direction, normal), dot(direction, floor));
     return measured < (angle - turn) / 2 ? measured + turn : measured;
   }
-  /// The same for one that was turned there from another one, by less than half a turn.
-  [[nodiscard]] double angle_of(const Point& direction, const Point& before) const {
+  /// The same for one that was turned there from another one, by less than half a turn: two angles
+  /// where that one was in the plane of a crack, on either side of it.
+  [[nodiscard]] std::array<double, 2> angles_of(const Point& direction, const Point& before) const {
+    constexpr double same = 1e-9;
     const double now = angle_of(direction);
-    if (dot(before, before) < 1e-18) return now;
-    return now + turn * std::round((angle_of(before) - now) / turn);
+    if (dot(before, before) < 1e-18) return {now, now};
+    const double was = angle_of(before);
+    const auto turned = [&](double from) { return now + turn * std::round((from - now) / turn); };
+    const bool crack = angle > turn - same;
+    return {turned(was), turned(crack && was < same          ? was + turn
+                                : crack && was > turn - same ? was - turn
+                                                             : was)};
   }
   /// Does a string press against the obstacle between legs that leave at these angles? A leg in
   /// the plane of a crack is on both of its sides.
@@ -74,7 +83,12 @@ struct Place {
   /// a turn each: by signs, but in a crack.
   [[nodiscard]] bool presses(const Point& a, const Point& before_a, const Point& b,
                              const Point& before_b) const {
-    if (angle > turn - 1e-3) return presses(angle_of(a, before_a), angle_of(b, before_b));
+    if (angle > turn - 1e-3) {
+      for (const double of_a : angles_of(a, before_a))
+        for (const double of_b : angles_of(b, before_b))
+          if (presses(of_a, of_b)) return true;
+      return false;
+    }
     const Across in = across(a), out = across(b);
     return leads_in(in) || leads_in(out) || are_around(in, out) ||
            (dot(before_a, before_a) > 1e-18 && are_around(across(before_a), in)) ||

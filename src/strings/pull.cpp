@@ -241,6 +241,7 @@ void Puller::pull(String& string) {
   for (std::size_t k = 1; k <= n; ++k) {
     Knot& knot = knots[k];
     knot.t = std::clamp(knot.t, knot.place->low, knot.place->high);
+    knot.at = knot.place->is_plane ? knot.place->at(knot.t, knot.u) : knot.place->at(knot.t);
     has_planes = has_planes || knot.place->is_plane;
     weighted_ = weighted_ || knot.slowness != knots[k - 1].slowness;
   }

@@ -1,15 +1,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "strings/solver.hpp"
+#include "strings/extender.hpp"
 
 namespace plexway::strings {
 
 // Would a string through a point, that comes and goes in these directions, be shorter through doors
 // there? A problem of its own, with legs of length 1 and places that have no ends. At a row patches
 // have a side.
-bool Solver::gains(const Point& in, const Point& out, std::span<const Index> doors, Index before,
-                   const Point& at, Index row) {
+bool Extender::gains(const Point& in, const Point& out, std::span<const Index> doors, Index before,
+                     const Point& at, Index row) {
   if (doors.size() == 2) {
     const Index m = space_->medium_behind(doors[0]), after = space_->medium_behind(doors[1]);
     if (is_at_rest(*place(space_->place_of(doors[0])), slowness(before) * in,
@@ -57,7 +57,7 @@ bool Solver::gains(const Point& in, const Point& out, std::span<const Index> doo
 
 // Places that are all at a point go where `gains` found them: there the length has a kink, which no
 // pull leaves by itself.
-void Solver::move_apart(Attempt& a, std::size_t begin, const Point& at) {
+void Extender::move_apart(Attempt& a, std::size_t begin, const Point& at) {
   auto& knots = a.string.knots;
   const std::size_t end = begin + apart_.size();
   const double scale =
@@ -71,7 +71,7 @@ void Solver::move_apart(Attempt& a, std::size_t begin, const Point& at) {
 }
 
 // A leg without length: is the string as short without it? Then it is dropped.
-bool Solver::collapse(Attempt& a, std::size_t leg, bool& useless) {
+bool Extender::collapse(Attempt& a, std::size_t leg, bool& useless) {
   const String& s = a.string;
   const auto& knots = s.knots;
   const std::size_t n = s.bends();
@@ -138,7 +138,7 @@ bool Solver::collapse(Attempt& a, std::size_t leg, bool& useless) {
 }
 
 // A crossing off its patch slides on to the row there.
-bool Solver::leave_patch(Attempt& a, std::size_t k) {
+bool Extender::leave_patch(Attempt& a, std::size_t k) {
   const Knot& knot = a.string.knots[k];
   const auto& patch = space_->patch(place_of(knot));
   if (space_->holds(patch, knot.t, knot.u, outside)) return false;
@@ -152,7 +152,7 @@ bool Solver::leave_patch(Attempt& a, std::size_t k) {
   return true;
 }
 
-bool Solver::lift_off_row(Attempt& a, std::size_t k) {
+bool Extender::lift_off_row(Attempt& a, std::size_t k) {
   const Knot &knot = a.string.knots[k], &last = a.string.knots[k - 1];
   const Index row = place_of(knot), before = last.medium, after = knot.medium;
   const Point at = knot.at, in = a.string.direction(k - 1), out = a.string.direction(k);
@@ -185,7 +185,7 @@ bool Solver::lift_off_row(Attempt& a, std::size_t k) {
   return true;
 }
 
-bool Solver::lift_off_corner(Attempt& a, std::size_t k) {
+bool Extender::lift_off_corner(Attempt& a, std::size_t k) {
   const Knot &knot = a.string.knots[k], &last = a.string.knots[k - 1];
   const Index before = last.medium, after = knot.medium;
   if (before == after) return false;
@@ -221,20 +221,20 @@ bool Solver::lift_off_corner(Attempt& a, std::size_t k) {
 }
 
 // Where a leg leads from a bend.
-Point Solver::toward(const Attempt& a, std::size_t k, std::size_t other, Index to) const {
+Point Extender::toward(const Attempt& a, std::size_t k, std::size_t other, Index to) const {
   const auto row = a.string.row_from(k, other);
   return row ? *row : end_of_leg(a, other, k, to) - a.string.at(k);
 }
 
 // Does the string press against the place that it bends at? It came there by a leg.
-bool Solver::presses(const Attempt& a, std::size_t k, const Leg& in, const Point& from,
-                     Index to) const {
+bool Extender::presses(const Attempt& a, std::size_t k, const Leg& in, const Point& from,
+                       Index to) const {
   const Place& p = *a.string.knots[k].place;
   const Leg& out = a.string.knots[k].leg;
   return p.presses(from, in.from - in.to, toward(a, k, k + 1, to), out.to - out.from);
 }
 
-bool Solver::drop_lifted(Attempt& a, std::size_t k, Index to) {
+bool Extender::drop_lifted(Attempt& a, std::size_t k, Index to) {
   if (a.string.knots[k].place->holds() ||
       presses(a, k, a.string.knots[k - 1].leg, toward(a, k, k - 1, to), to))
     return false;
@@ -245,7 +245,7 @@ bool Solver::drop_lifted(Attempt& a, std::size_t k, Index to) {
 }
 
 // Are the places right for the string as it is? One that is not is changed.
-bool Solver::rearrange(Attempt& a, Index to, bool& useless) {
+bool Extender::rearrange(Attempt& a, Index to, bool& useless) {
   const auto& knots = a.string.knots;
   if (!plain_ && knots.size() > 2)
     for (std::size_t leg = knots.size() - 1; leg-- > 0;) {

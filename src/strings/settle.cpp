@@ -1,21 +1,20 @@
-#include "strings/solver.hpp"
+#include "strings/extender.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace plexway::strings {
 
-Point Solver::end_of_leg(const Attempt& a, std::size_t k, std::size_t other, Index to) const {
+Point Extender::end_of_leg(const Attempt& a, std::size_t k, std::size_t other, Index to) const {
   const auto& knots = a.string.knots;
   const Knot &knot = knots[k], &behind = knots[std::min(k, other)];
   const auto& medium = space_->media()[behind.medium];
   if (!medium.room) return knot.at;
   const Point &toward = knots[other].at, &free = other > k ? behind.leg.to : behind.leg.from;
   if (k + 1 == knots.size())
-    return to == space_->nodes() ? attached_beside_
+    return to == space_->nodes() ? state_->attached_beside
                                  : medium.room->beside(medium.in_room(to), toward, behind.leg.to);
   if (knot.place == nullptr) {
-    const Root& root = roots_[a.root];
+    const State::Root& root = state_->roots[a.root];
     return root.node != none ? medium.room->beside(medium.in_room(root.node), toward, free)
                              : root.beside;
   }
@@ -28,7 +27,7 @@ Point Solver::end_of_leg(const Attempt& a, std::size_t k, std::size_t other, Ind
 }
 
 // At or near to a point.
-Knot Solver::knot(Index door, const Point& at) {
+Knot Extender::knot(Index door, const Point& at) {
   Knot knot{at, place(space_->place_of(door))};
   const Place& p = *knot.place;
   const Point d = at - p.origin;
@@ -42,12 +41,12 @@ Knot Solver::knot(Index door, const Point& at) {
 }
 
 // Between the end of the string as it was and a point on the way to the new one.
-void Solver::append(Attempt& a, Index door, const Point& toward) {
+void Extender::append(Attempt& a, Index door, const Point& toward) {
   auto& knots = a.string.knots;
   const Point& from = at(from_);
   Knot last = knot(door, .5 * (from + toward));
   // From where it is free: in that medium beside the point, which tells the side of a crack.
-  const Index n = space_->node(point_of(from_), last.medium);
+  const Index n = space_->node(state_->point_of(from_), last.medium);
   const auto& medium = space_->media()[last.medium];
   const Point beside =
       medium.room && n != none ? medium.room->beside(medium.in_room(n), toward, toward) : from;
@@ -56,8 +55,8 @@ void Solver::append(Attempt& a, Index door, const Point& toward) {
 }
 
 // Instead of the places of some knots others, at a point.
-void Solver::replace(Attempt& a, std::size_t begin, std::size_t end, std::span<const Index> doors,
-                     const Point& at) {
+void Extender::replace(Attempt& a, std::size_t begin, std::size_t end, std::span<const Index> doors,
+                       const Point& at) {
   auto& knots = a.string.knots;
   const Point to = knots[end - 1].leg.to;
   const auto b = knots.begin() + static_cast<std::ptrdiff_t>(begin);
@@ -74,7 +73,7 @@ void Solver::replace(Attempt& a, std::size_t begin, std::size_t end, std::span<c
 }
 
 // The string of the node that offers, to another end.
-void Solver::start(Index to) {
+void Extender::start(Index to) {
   attempt_.string.knots = base_.string.knots;
   attempt_.string.knots.back().at = at(to);
   attempt_.root = base_.root;
@@ -82,15 +81,15 @@ void Solver::start(Index to) {
   attempt_.splits = 0;
 }
 
-bool Solver::is_edge(const Attempt& a) const {
+bool Extender::is_edge(const Attempt& a) const {
   const Knot& knot = a.string.knots[a.string.bends()];
-  if (knot.place == nullptr) return roots_[a.root].node == from_;
-  const Index p = point_of(from_);
+  if (knot.place == nullptr) return state_->roots[a.root].node == from_;
+  const Index p = state_->point_of(from_);
   return knot.place->vertex == p && space_->node(p, knot.medium) != none;
 }
 
 // The last leg that leaves its medium; as many as there are legs: none does.
-std::size_t Solver::blocked(const Attempt& a, Index to) {
+std::size_t Extender::blocked(const Attempt& a, Index to) {
   const auto moved = [](const Point& p, const Point& q) {
     const Point d = p - q;
     return dot(d, d) > unmoved * unmoved;
@@ -113,7 +112,7 @@ std::size_t Solver::blocked(const Attempt& a, Index to) {
   return legs;
 }
 
-bool Solver::insert_touched(Attempt& a, std::size_t k, Index to) {
+bool Extender::insert_touched(Attempt& a, std::size_t k, Index to) {
   const auto& knots = a.string.knots;
   const Leg leg = knots[k].leg;
   const auto& medium = space_->media()[knots[k].medium];
@@ -142,15 +141,16 @@ bool Solver::insert_touched(Attempt& a, std::size_t k, Index to) {
 
 // Pulled, places dropped and put in until all legs are free; no further if it is of no use, or
 // as long as `least`.
-Solver::Outcome Solver::settle(Attempt& a, Index to, double least) {
+Extender::Outcome Extender::settle(Attempt& a, Index to, double least) {
   constexpr int most = 48;
   bool useless = false;
   for (int round = 0; round < most; ++round) {
     puller_.pull(a.string);
     if (rearrange(a, to, useless)) continue;
     const double found = length(a);
-    if (useless || !(found < least + offset(a) && found < direct_ &&
-                     found * (1 + 1e-12) < limit(to, roots_[a.root].source, last_leg(a), found)))
+    if (useless ||
+        !(found < least + offset(a) && found < direct_ &&
+          found * (1 + 1e-12) < state_->limit(to, source_of(a), media_of(a), last_leg(a), found)))
       return Outcome::longer;
     const std::size_t leg = blocked(a, to);
     if (leg + 1 == a.string.knots.size()) return Outcome::free;

@@ -5,14 +5,15 @@
 #include <cmath>
 
 namespace plexway::strings {
+using namespace detail;
 namespace {
 
 std::array<double, 3> coordinates(const Point& p) { return {p.x, p.y, p.z}; }
 
 }  // namespace
 
-Sight::Sight(const Boundary& boundary, std::span<const Point> points, const Tolerances& near)
-    : boundary_(&boundary), points_(points), near_(near) {
+Sight::Sight(const Boundary& boundary, std::span<const Point> points)
+    : boundary_(&boundary), points_(points) {
   std::vector<char> seen(points.size(), 0);
   std::vector<Box<3>> boxes;
   for (const auto& face : boundary.faces)
@@ -25,17 +26,17 @@ Sight::Sight(const Boundary& boundary, std::span<const Point> points, const Tole
     const auto height = [&](const std::array<double, 3>& p) {
       return plane.height({p[0], p[1], p[2]});
     };
-    if (height(last) < -near.on) return true;
+    if (height(last) < -Tolerances::on) return true;
     bool found = false;
     vertices.search(
         [&](const Box<3>& box) {
           const std::array<double, 3> n = coordinates(plane.normal);
           std::array<double, 3> lowest;
           for (std::size_t d = 0; d < 3; ++d) lowest[d] = n[d] > 0 ? box.low[d] : box.high[d];
-          return !found && height(lowest) < -near.on;
+          return !found && height(lowest) < -Tolerances::on;
         },
         [&](Index v) {
-          if (found || !(height(boxes[v].low) < -near.on)) return;
+          if (found || !(height(boxes[v].low) < -Tolerances::on)) return;
           found = true;
           last = boxes[v].low;
         });
@@ -54,7 +55,7 @@ Sight::Sight(const Boundary& boundary, std::span<const Point> points, const Tole
       wall.side[k] = {inward, dot(inward, a)};
       box.add(coordinates(a));
     }
-    box.widen(near.on);
+    box.widen(Tolerances::on);
     walls_.push_back(wall);
     walls.push_back(box);
   }
@@ -63,11 +64,11 @@ Sight::Sight(const Boundary& boundary, std::span<const Point> points, const Tole
 
 bool Sight::is_between(const Wall& wall, const Point& from, const Point& to) const {
   const double before = wall.plane.height(from), behind = wall.plane.height(to);
-  if (!(before > -near_.on && behind < -near_.on)) return false;
+  if (!(before > -Tolerances::on && behind < -Tolerances::on)) return false;
   const double share = std::max(before, 0.) / (std::max(before, 0.) - behind);
   const Point at = from + share * (to - from);
   for (const Plane& side : wall.side)
-    if (side.height(at) < -near_.on) return false;
+    if (side.height(at) < -Tolerances::on) return false;
   return true;
 }
 
@@ -105,9 +106,9 @@ bool Sight::is_blocked(const Point& from, const Point& to) const {
     const Point at = from + before / (before - wall.plane.height(to)) * (to - from);
     bool inside = true;
     for (const Plane& side : wall.side) {
-      if (side.height(at) > near_.on) continue;
+      if (side.height(at) > Tolerances::on) continue;
       inside = false;
-      if (!grazing) off = -0.01 * near_.aside * side.normal;  // less than ends are off faces
+      if (!grazing) off = -0.01 * Tolerances::aside * side.normal;  // less than ends are off faces
     }
     grazing = true;
     return blocked = inside;
@@ -133,7 +134,7 @@ std::optional<Sight::Touch> Sight::touch(const Point& from, const Point& to, con
 std::optional<Sight::Touch> Sight::highest(const Point& from, const Point& to, const Point& rise,
                                            const std::array<Index, 2>& known) const {
   const Point ahead = unit(to - from), off = rise - dot(rise, ahead) * ahead;
-  if (norm(off) < near_.aside) return {};
+  if (norm(off) < Tolerances::aside) return {};
   const Point up = unit(off), normal = cross(ahead, up);
   std::optional<Touch> best;
   double steepest = -1e300;
@@ -168,7 +169,7 @@ std::optional<Sight::Touch> Sight::highest(const Point& from, const Point& to, c
         const Place& place = boundary_->places[bend];
         best = {bend, dot(at - place.origin, place.along)};
       }
-      if (height < -near_.on && n > 0) return;
+      if (height < -Tolerances::on && n > 0) return;
       const Index next = f.across[leave];
       if (next == wall.face) return;
       const auto& g = boundary_->faces[next];

@@ -12,13 +12,14 @@
 /// What hides one point of a solid from another, and what a string touches first where it is moved
 /// from a free place to one that is hidden.
 namespace plexway::strings {
+using namespace detail;
 
 /// A straight leg is free if it leaves the solid nowhere: so only the boundary is looked at, and of
 /// that only faces that have some of the solid behind their plane. A convex solid has none.
 class Sight {
  public:
   Sight() = default;
-  Sight(const Boundary& boundary, std::span<const Point> points, const Tolerances& near);
+  Sight(const Boundary& boundary, std::span<const Point> points);
 
   /// Is a face between them? Ends lie a little inside the solid, or on what hides nothing. A leg
   /// that no more than touches edges is free if it is beside them: in the plane of a crack the side
@@ -61,7 +62,6 @@ class Sight {
 
   const Boundary* boundary_ = nullptr;
   std::span<const Point> points_;
-  Tolerances near_{};
   std::vector<Wall> walls_;
   BoxTree<3> tree_;
 };

@@ -1,31 +1,22 @@
 #include "strings/solid_space.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 namespace plexway::strings {
 
-namespace {
-
 template <class Real>
-std::vector<Point> points_of(const TetMesh<Real>& mesh) {
-  std::vector<Point> points;
-  points.reserve(mesh.points().size());
-  for (const auto& p : mesh.points()) points.push_back({double(p.x), double(p.y), double(p.z)});
-  return points;
-}
-
-}  // namespace
-
-template <class Real>
-SolidSpace::SolidSpace(const TetMesh<Real>& mesh) : SolidSpace(mesh, points_of(mesh)) {}
+SolidSpace::SolidSpace(const TetMesh<Real>& mesh)
+    : SolidSpace(mesh, {mesh.points().begin(), mesh.points().end()}) {}
 
 template <class Real>
 SolidSpace::SolidSpace(const TetMesh<Real>& mesh, std::vector<Point> points)
-    : points_(std::move(points)), near_(tolerances_of(mesh)) {
-  boundary_ = find_boundary(mesh, points_, near_);
-  sight_ = Sight(boundary_, points_, near_);
+    : points_(std::move(points)),
+      boundary_(find_boundary(mesh, points_)),
+      sight_(boundary_, points_) {
   join(mesh);
+  find_sharp();
   find_inside(mesh);
 }
 
@@ -40,6 +31,16 @@ void SolidSpace::join(const TetMesh<Real>& mesh) {
       for (const Index w : mesh.tets()[corner / 4].corner)
         if (std::exchange(seen[w], v) != v) neighbours_.push_back(w);
     begin_.push_back(static_cast<Index>(neighbours_.size()));
+  }
+}
+
+void SolidSpace::find_sharp() {
+  constexpr double sharp = 1;  // radian
+  sharp_.assign(points_.size(), 0);
+  for (const auto& [v, row] : boundary_.rows_at) {
+    if (!(boundary_.places[row].angle > std::numbers::pi + sharp)) continue;
+    sharp_[v] = 1;
+    for (const Index w : neighbours(v)) sharp_[w] = 1;
   }
 }
 
@@ -102,21 +103,21 @@ Point SolidSpace::into(std::span<const Part> parts, const Point& p, const Point&
   double deepest = 0;
   bool held = false;
   for (const Part& part : parts) {
-    const bool holds = depth(part, first) >= -near_.on;
+    const bool holds = depth(part, first) >= -Tolerances::on;
     const double now = depth(part, second);
     if (best != nullptr && (held > holds || (held == holds && now <= deepest))) continue;
     best = &part;
     deepest = now;
     held = holds;
   }
-  return p + near_.aside * best->middle;
+  return p + Tolerances::aside * best->middle;
 }
 
 Point SolidSpace::beside_boundary(Index slot, Index vertex, const Point& toward,
                                   const Point& free) const {
   const Inside& inside = inside_[slot];
   const Point& p = points_[vertex];
-  if (inside.begin == inside.end) return p + near_.aside * inside.direction;
+  if (inside.begin == inside.end) return p + Tolerances::aside * inside.direction;
   return into(std::span<const Cone>(cones_).subspan(inside.begin, inside.end - inside.begin), p,
               toward, free);
 }
@@ -125,7 +126,7 @@ Point SolidSpace::beside(const Place& place, double t, const Point& toward,
                          const Point& free) const {
   return into(std::span<const Boundary::Wedge>(boundary_.wedges)
                   .subspan(place.first_wedge, place.last_wedge - place.first_wedge),
-              place.off_ends(t, near_.aside), toward, free);
+              place.off_ends(t, Tolerances::aside), toward, free);
 }
 
 bool SolidSpace::are_on_face(Index row, const Point& at, Index next, const Point& to) const {
@@ -152,8 +153,9 @@ bool SolidSpace::are_on_face(Index row, const Point& at, Index next, const Point
 
 std::size_t SolidSpace::bytes() const {
   const auto of = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return sizeof(*this) + of(points_) + of(boundary_.faces) + of(boundary_.places) + sight_.bytes() +
-         of(begin_) + of(neighbours_) + of(faces_at_) + of(slot_) + of(inside_) + of(cones_);
+  return sizeof(*this) + of(points_) + of(boundary_.faces) + of(boundary_.places) +
+         of(boundary_.rows_at) + of(boundary_.wedges) + sight_.bytes() + of(begin_) +
+         of(neighbours_) + of(sharp_) + of(faces_at_) + of(slot_) + of(inside_) + of(cones_);
 }
 
 template Point SolidSpace::into(std::span<const Boundary::Wedge>, const Point&, const Point&,

@@ -32,10 +32,10 @@ class SolidSpace {
     return std::span<const Index>(neighbours_)
         .subspan(begin_[vertex], begin_[vertex + 1] - begin_[vertex]);
   }
-  [[nodiscard]] const Boundary& boundary() const { return boundary_; }
+  /// Has it, or a neighbour, an edge where strings turn much? There they part in many ways.
+  [[nodiscard]] bool is_sharp(Index vertex) const { return sharp_[vertex] != 0; }
   [[nodiscard]] const std::vector<Place>& places() const { return boundary_.places; }
   [[nodiscard]] const Sight& sight() const { return sight_; }
-  [[nodiscard]] double aside() const { return near_.aside; }
 
   /// Where a leg from or to a vertex ends: a little inside the solid, for one `toward` a point. On
   /// which side of a face in that direction, or if it is behind the boundary, says `free`.
@@ -90,16 +90,17 @@ class SolidSpace {
   }
   template <class Real>
   void join(const TetMesh<Real>& mesh);
+  void find_sharp();
   template <class Real>
   void find_inside(const TetMesh<Real>& mesh);
   [[nodiscard]] Point beside_boundary(Index slot, Index vertex, const Point& toward,
                                       const Point& free) const;
 
   std::vector<Point> points_;
-  Tolerances near_;
   Boundary boundary_;
   Sight sight_;
   std::vector<Index> begin_, neighbours_;
+  std::vector<char> sharp_;
   std::vector<std::pair<Index, Index>> faces_at_;
   std::vector<Index> slot_;  // into inside_; none: not on the boundary
   std::vector<Inside> inside_;

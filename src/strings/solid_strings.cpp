@@ -6,7 +6,7 @@
 #include "complexes/common/number_range.hpp"
 #include "strings/to_field.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 using strings::Point;
 
@@ -66,7 +66,8 @@ std::shared_ptr<const strings::MediaSpace> space_of(const TetMesh<Real>& mesh) {
 
 template <class Real>
 void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
-                         const PropagateOptions& options, DistanceField<Real>& field) {
+                         const PropagateOptions& options, const strings::Threads& threads,
+                         DistanceField<Real>& field) {
   NumberRange<Real>::check_unit(mesh.unit());
   if (!solver_ || identity_ != mesh.identity()) {
     space_ = space_of(mesh);
@@ -85,7 +86,8 @@ void SolidStrings::solve(const TetMesh<Real>& mesh, std::span<const PointSource>
   }
   std::sort(inside_.begin(), inside_.end());
   const double unit = mesh.unit();
-  field.complete = solver_->solve(sources_, strings::limits_of(options, unit, mesh.tet_count()));
+  field.complete =
+      solver_->solve(sources_, strings::limits_of(options, unit, mesh.tet_count(), threads));
   const auto number = [&](Index vertex) { return mesh.inside_vertex(vertex); };
   strings::to_field(*solver_, mesh.vertex_count(), number, unit, sources, options.radius, field);
   field.accuracy = Accuracy::accurate();
@@ -142,13 +144,15 @@ template strings::Source source_in(const TetMesh<double>&, const strings::MediaS
                                    const std::array<double, 4>&, double, strings::Inside&);
 
 template void SolidStrings::solve(const TetMesh<float>&, std::span<const PointSource>,
-                                  const PropagateOptions&, DistanceField<float>&);
+                                  const PropagateOptions&, const strings::Threads&,
+                                  DistanceField<float>&);
 template void SolidStrings::solve(const TetMesh<double>&, std::span<const PointSource>,
-                                  const PropagateOptions&, DistanceField<double>&);
+                                  const PropagateOptions&, const strings::Threads&,
+                                  DistanceField<double>&);
 
 template SolidStrings::Found SolidStrings::at(const TetMesh<float>&, Index,
                                               const std::array<double, 4>&) const;
 template SolidStrings::Found SolidStrings::at(const TetMesh<double>&, Index,
                                               const std::array<double, 4>&) const;
 
-}  // namespace plexway
+}  // namespace plexway::detail

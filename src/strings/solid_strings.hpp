@@ -17,7 +17,7 @@
 #include "strings/solver.hpp"
 
 /// Solids by strings (src/strings): between the library's sources, options and fields, and theirs.
-namespace plexway {
+namespace plexway::detail {
 
 /// A point of a tetrahedron; inside.
 template <class Real>
@@ -49,10 +49,11 @@ class SolidStrings {
     std::vector<strings::Point> points;
   };
 
-  /// By one thread: whatever the executor, the same bits.
+  /// The same bits for any number of threads.
   template <class Real>
   void solve(const TetMesh<Real>& mesh, std::span<const PointSource> sources,
-             const PropagateOptions& options, DistanceField<Real>& field);
+             const PropagateOptions& options, const strings::Threads& threads,
+             DistanceField<Real>& field);
 
   /// To a vertex, or a point of a tetrahedron by one coordinate a corner, inside. Any number of
   /// threads may ask, one after the other.
@@ -76,4 +77,4 @@ class SolidStrings {
   std::vector<std::pair<Index, Index>> inside_;  // tetrahedra with sources inside, and these
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

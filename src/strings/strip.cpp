@@ -1,22 +1,25 @@
 #include "strings/strip.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace plexway::strings {
 
-bool Strip::joins(const Place& row, const Place& next) {
-  const auto has = [&](Index v) { return v != none && (next.end[0] == v || next.end[1] == v); };
-  return &row != &next && (has(row.end[0]) || has(row.end[1]));
+namespace {
+
+bool has(const Place& row, Index vertex) {
+  return vertex != none && (row.end[0] == vertex || row.end[1] == vertex);
 }
+
+bool joins(const Place& row, const Place& next) {
+  return &row != &next && (has(next, row.end[0]) || has(next, row.end[1]));
+}
+
+}  // namespace
 
 // The next row, turned about the vertex that both have.
 void Strip::unfold(const Place& row, const Place& next) {
   const Portal& last = portals_.back();
-  const auto is_of_next = [&](Index v) {
-    return v != none && (next.end[0] == v || next.end[1] == v);
-  };
-  const bool low = is_of_next(row.end[0]);  // of the row
+  const bool low = has(next, row.end[0]);  // of the row
   const bool from_low = next.end[0] == row.end[low ? 0 : 1];
   const bool left = low == last.rises;
   const Flat &at = left ? last.left : last.right, &other = left ? last.right : last.left;

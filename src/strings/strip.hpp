@@ -31,7 +31,6 @@ class Strip {
     Flat left, right;
     bool rises;  ///< from left to right, as the row is measured
   };
-  static bool joins(const Place& row, const Place& next);
   void unfold(const Place& row, const Place& next);
   std::size_t turn(Flat& from, std::size_t first, const Flat& end, Flat& to) const;
   static double share(const Portal& portal, const Flat& from, const Flat& to);

@@ -17,8 +17,9 @@ namespace plexway::strings {
 
 /// Of a solve in a domain of so many simplices, in units; its progress throws Cancelled. As long as
 /// the options.
-inline Limits limits_of(const PropagateOptions& options, double unit, std::size_t simplices) {
-  Limits limits{options.radius / unit, options.max_expansions, {}};
+inline Limits limits_of(const PropagateOptions& options, double unit, std::size_t simplices,
+                        const Threads& threads = {}) {
+  Limits limits{options.radius / unit, options.max_expansions, {}, threads};
   if (options.progress)
     limits.progress = [&options, unit, simplices](std::size_t expansions, double distance) {
       if (!options.progress(

@@ -19,6 +19,7 @@
 #include "tool/report/console.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 std::string version_text() {
@@ -146,20 +147,16 @@ void parse_and_run(int argc, const char* const* argv, const Among* among) {
   } catch (const CLI::ParseError& error) {
     throw UsageError(usage_complaint(tool, error));
   }
+  if (version || !page.empty()) {
+    if (among != nullptr && !among->ranks.leads()) return;
+    write_output(version ? version_text() : help_page(tool, page));
+    flush_output();
+    return;
+  }
   if (among != nullptr && !tool.got_subcommand("pairs") && !tool.got_subcommand("distance"))
     throw UsageError(
         "ranks share the rows of 'pairs --sources' and the pieces of 'distance'; all else is for "
         "plexway alone");
-  if (!page.empty()) {
-    write_output(help_page(tool, page));
-    flush_output();
-    return;
-  }
-  if (version) {
-    write_output(version_text());
-    flush_output();
-    return;
-  }
   if (!action) throw UsageError("no command given; try 'plexway --help'");
   action();
 }

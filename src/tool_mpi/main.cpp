@@ -1,6 +1,5 @@
 // The tool among ranks of MPI: mpirun -n 4 plexway-mpi distance INPUT ..., or pairs.
 
-#include <cstdio>
 #include <exception>
 #include <optional>
 #include <string>

@@ -7,6 +7,7 @@
 #include <plexway/surface/detail/triangle_record.hpp>
 
 namespace plexway::windows {
+using namespace detail;
 
 /// The halfedge that an Across leads to, 4 f + i.
 [[nodiscard]] constexpr Index halfedge_of(Index across) {

@@ -1,10 +1,11 @@
-#include "windows/curve_lights.hpp"
+#include "windows/window_sources.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace plexway::windows {
+using namespace detail;
 namespace {
 
 /// Of an edge, or as a sine: less is nothing.

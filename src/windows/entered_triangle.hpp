@@ -8,6 +8,7 @@
 #include <plexway/surface/detail/triangle_record.hpp>
 
 namespace plexway::windows {
+using namespace detail;
 
 /// A source seen from an edge: at (x, -h), `begin` to `end` of the edge in its light. Or, where h
 /// is below 0, the light of a straight line, which is parallel: it travels by (x, -h), a unit

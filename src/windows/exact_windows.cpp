@@ -9,6 +9,7 @@
 #include "windows/cross_edge.hpp"
 
 namespace plexway::windows {
+using namespace detail;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();

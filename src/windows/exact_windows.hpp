@@ -1,9 +1,7 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,6 +20,7 @@
 #include "windows/window_sources.hpp"
 
 namespace plexway::windows {
+using namespace detail;
 
 /// What a solve by windows may take before it is given up.
 struct Patience {

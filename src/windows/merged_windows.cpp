@@ -11,6 +11,7 @@
 #include "windows/cross_edge.hpp"
 
 namespace plexway::windows {
+using namespace detail;
 namespace {
 
 template <class Real>

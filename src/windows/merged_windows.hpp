@@ -28,6 +28,7 @@
 #include "windows/window_sources.hpp"
 
 namespace plexway::windows {
+using namespace detail;
 
 /// The triangles that a point of f lies in: calls visit(f, barycentric, 3) and, where it lies on an
 /// edge, visit(g, barycentric, k) for the others there; edge k of g is that one.

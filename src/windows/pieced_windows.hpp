@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -15,6 +14,7 @@
 #include "windows/window_piece.hpp"
 
 namespace plexway::windows {
+using namespace detail;
 
 /// Windows on a surface in pieces, with what ExactWindows and MergedWindows tell after a solve.
 template <class Real, class Windows>

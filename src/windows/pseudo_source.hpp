@@ -8,6 +8,7 @@
 #include "windows/entered_triangle.hpp"
 
 namespace plexway::windows {
+using namespace detail;
 
 /// A corner of a triangle on a walk around its vertex: entered by one of the two edges that meet
 /// there, left by the other. Sheets that turn over are walked like any other.

@@ -15,6 +15,7 @@
 #include "windows/window_sources.hpp"
 
 namespace plexway::windows {
+using namespace detail;
 
 /// What windows run over: a surface, or a piece of one by numbers of its own. Of a piece the
 /// triangles around its vertices that are other pieces' (ghosts) are there to be gone around; a

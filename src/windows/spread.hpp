@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include "kernel/lanes.hpp"
 #include "windows/entered_triangle.hpp"
 #include "windows/merge.hpp"

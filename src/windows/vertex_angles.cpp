@@ -5,6 +5,7 @@
 #include <numbers>
 
 namespace plexway::windows {
+using namespace detail;
 
 namespace {
 

@@ -5,12 +5,12 @@
 
 #include <plexway/surface/triangle_mesh.hpp>
 
-namespace plexway {
-
-namespace windows {
+namespace plexway::windows {
 template <class Real>
 class WindowSolver;
-}
+}  // namespace plexway::windows
+
+namespace plexway::detail {
 
 /// What solves by windows (Accuracy) keep from call to call: what depends on a surface alone, and
 /// memory. Holds nothing before the first.
@@ -42,4 +42,4 @@ class WindowMemory {
 extern template class WindowMemory<float>;
 extern template class WindowMemory<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,6 +6,7 @@
 #include "labels/pieces/triangle_patches.hpp"
 
 namespace plexway::windows {
+using namespace detail;
 namespace {
 
 template <class Real>

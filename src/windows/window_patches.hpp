@@ -12,6 +12,7 @@
 #include "windows/vertex_angles.hpp"
 
 namespace plexway::windows {
+using namespace detail;
 
 /// A vertex or a triangle of a piece: by the piece's number, or in a patch by its place among the
 /// peers.

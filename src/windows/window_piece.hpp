@@ -13,6 +13,7 @@
 #include "windows/window_patches.hpp"
 
 namespace plexway::windows {
+using namespace detail;
 
 /// A piece of a surface in solves by windows, exact or merged: what Supersteps asks of one.
 /// Messages are windows that enter a ghost, for the piece that it belongs to, and vertices that got

@@ -8,6 +8,8 @@
 #include "windows/solve_by.inl"
 
 namespace plexway {
+using namespace detail;
+
 namespace windows {
 
 /// What exact windows may take. Scans and CAD parts need 2 to 80 windows a triangle, raw needles
@@ -87,6 +89,8 @@ template bool WindowSolver<double>::solve_by(const Alone&, const WindowSources&,
 
 }  // namespace windows
 
+namespace detail {
+
 template <class Real>
 WindowMemory<Real>::WindowMemory() noexcept = default;
 template <class Real>
@@ -113,5 +117,7 @@ std::size_t WindowMemory<Real>::bytes() const {
 
 template class WindowMemory<float>;
 template class WindowMemory<double>;
+
+}  // namespace detail
 
 }  // namespace plexway

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 
 #include <plexway/solve/accuracy.hpp>
 #include <plexway/solve/distance_field.hpp>
@@ -21,6 +20,7 @@
 #include "windows/window_sources.hpp"
 
 namespace plexway::windows {
+using namespace detail;
 
 /// Distances on a surface by windows, one solve after the other, by one thread or by a scheduler.
 /// Keeps what depends on the surface alone, and its memory.

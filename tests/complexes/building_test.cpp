@@ -3,16 +3,15 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <random>
 #include <set>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <plexway/error.hpp>
+#include <plexway/simplicial/simplicial_complex.hpp>
 #include <plexway/solid/tet_mesh.hpp>
 #include <plexway/surface/intrinsic_delaunay.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
@@ -24,8 +23,10 @@
 #include "complexes/surface/triangle_shape.hpp"
 #include "complexes/test_meshes.hpp"
 #include "complexes/test_solids.hpp"
+#include "message_of.hpp"
 
 namespace plexway::testing::building_test {
+using namespace detail;
 
 // How meshes are built fast, beside the slow ways of saying the same.
 
@@ -209,6 +210,184 @@ TEST_CASE("many tetrahedra at one vertex are glued like few") {
   const std::string last = std::to_string(ball.tets.size() - 1);
   CHECK_THROWS_WITH(ball.mesh<double>(), Catch::Contains("17") && Catch::Contains(last) &&
                                              Catch::Contains("at most two can"));
+}
+
+namespace {
+
+using Lengths = std::vector<std::array<double, 3>>;
+using Gluing = std::vector<std::array<Index, 3>>;
+const double diagonal = std::sqrt(2.);
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("a torus of two triangles and one vertex", "", float, double) {
+  const std::vector<Face> faces = {{0, 0, 0}, {0, 0, 0}};
+  const TriangleMesh<TestType> mesh(1, faces, Lengths{{1, 1, diagonal}, {diagonal, 1, 1}},
+                                    Gluing{{4, 5, 3}, {2, 0, 1}});
+  const SurfaceSummary& s = mesh.summary();
+  CHECK(s.vertices == 1);
+  CHECK(s.edges == 3);
+  CHECK(s.boundary_edges == 0);
+  CHECK(s.non_manifold_edges == 0);
+  CHECK(s.pinched_vertices == 0);
+  CHECK(s.components == 1);
+  CHECK(s.orientable);
+  std::vector<Index> corners;
+  mesh.corners_at(0, corners);
+  std::sort(corners.begin(), corners.end());
+  CHECK(corners == std::vector<Index>{0, 1, 2, 3, 4, 5});
+  for (const auto& t : mesh.triangles())
+    for (std::size_t i = 0; i < 3; ++i) CHECK_FALSE(t.saddle(i));  // flat
+}
+
+TEST_CASE("a triangle glued to itself is a cone") {
+  const std::vector<Face> faces = {{0, 1, 1}};
+  const TriangleMesh<double> mesh(2, faces, Lengths{{2, 1, 2}}, Gluing{{2, none, 0}});
+  CHECK(mesh.summary().edges == 2);
+  CHECK(mesh.summary().boundary_edges == 1);
+  CHECK(mesh.summary().components == 1);
+  std::vector<Index> corners;
+  mesh.corners_at(mesh.inside_vertex(0), corners);
+  CHECK(corners == std::vector<Index>{0});
+  mesh.corners_at(mesh.inside_vertex(1), corners);
+  std::sort(corners.begin(), corners.end());
+  CHECK(corners == std::vector<Index>{1, 2});
+}
+
+TEST_CASE("two vertices may share several edges") {
+  // A cylinder of two triangles: side and diagonal both join 0 and 1.
+  const std::vector<Face> faces = {{0, 0, 1}, {0, 1, 1}};
+  const TriangleMesh<float> mesh(2, faces, Lengths{{1, 1, diagonal}, {diagonal, 1, 1}},
+                                 Gluing{{none, 5, 3}, {2, none, 1}});
+  CHECK(mesh.summary().edges == 4);
+  CHECK(mesh.summary().boundary_edges == 2);
+  CHECK(mesh.summary().components == 1);
+}
+
+TEST_CASE("an explicit gluing need not glue what shares vertices") {
+  const std::vector<Face> faces = {{0, 1, 2}, {2, 1, 3}};
+  const TriangleMesh<float> open(4, faces, Lengths{{1, 1, 1}, {1, 1, 1}},
+                                 Gluing{{none, none, none}, {none, none, none}});
+  CHECK(open.summary().boundary_edges == 6);
+  CHECK(open.summary().pinched_vertices == 2);
+  const TriangleMesh<float> closed(4, faces, Lengths{{1, 1, 1}, {1, 1, 1}});
+  CHECK(closed.summary().boundary_edges == 4);
+}
+
+TEST_CASE("a cycle of three is a fan") {
+  const std::vector<Face> faces = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}};
+  const TriangleMesh<float> mesh(5, faces, Lengths{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}},
+                                 Gluing{{3, none, none}, {6, none, none}, {0, none, none}});
+  CHECK(mesh.summary().non_manifold_edges == 1);
+  CHECK(mesh.summary().edges == 7);
+}
+
+TEST_CASE("gluings that are no cycles are refused") {
+  const std::vector<Face> faces = {{0, 1, 2}, {2, 1, 3}};
+  const Lengths lengths = {{1, 1, 1}, {1, 1, 1}};
+  const auto glue = [&](const Gluing& across) {
+    return TriangleMesh<float>(4, faces, lengths, across);
+  };
+  CHECK_NOTHROW(glue({{none, 3, none}, {1, none, none}}));
+  using Catch::Matchers::Contains;
+  CHECK_THROWS_WITH(glue({{none, 3, none}, {none, none, none}}),
+                    Contains("face 0, edge 1") || Contains("face 1, edge 0"));
+  CHECK_THROWS_WITH(glue({{none, 77, none}, {1, none, none}}), Contains("face 0, edge 1"));
+  CHECK_THROWS_WITH(glue({{none, 1, none}, {none, none, none}}), Contains("face 0, edge 1"));
+  CHECK_THROWS_WITH(glue({{none, 4, none}, {none, 1, none}}), Contains("face 0, edge 1"));
+  CHECK_THROWS_AS(glue({{none, 3, 3}, {1, none, none}}), InputError);
+  CHECK_THROWS_AS(glue({{none, 3, none}}), InputError);
+}
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+const double infinity = std::numeric_limits<double>::infinity();
+const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("bad coordinates name their vertex", "", float, double) {
+  for (const double bad : {infinity, -infinity, not_a_number})
+    for (std::size_t d = 0; d < 3; ++d) {
+      Surface s = grid(3, 3);
+      s.positions[7][d] = bad;
+      CHECK_THAT(message_of([&] { return s.mesh<TestType>(); }), Contains("vertex 7"));
+    }
+}
+
+TEMPLATE_TEST_CASE("bad faces name themselves", "", float, double) {
+  Surface s = grid(3, 3);
+  s.faces[5][1] = 16;
+  const std::string out_of_range = message_of([&] { return s.mesh<TestType>(); });
+  CHECK_THAT(out_of_range, Contains("face 5") && Contains("vertex 16"));
+  s.faces[5][1] = none;
+  CHECK_THAT(message_of([&] { return s.mesh<TestType>(); }), Contains("face 5"));
+  s.faces[5] = {3, 4, 3};
+  CHECK_THAT(message_of([&] { return s.mesh<TestType>(); }),
+             Contains("face 5") && Contains("vertex 3"));
+  s.faces.clear();
+  CHECK_THAT(message_of([&] { return s.mesh<TestType>(); }), Contains("no faces"));
+}
+
+TEST_CASE("nothing at all is refused") {
+  CHECK_THROWS_AS(Surface().mesh<float>(), InputError);
+  CHECK_THROWS_AS(TriangleMesh<float>(0, std::vector<Face>{}, Lengths{}), InputError);
+}
+
+TEMPLATE_TEST_CASE("bad lengths name their face", "", float, double) {
+  const Surface s = grid(3, 3);
+  for (const double bad : {infinity, not_a_number, -1.0, -1e-300}) {
+    Lengths lengths = lengths_of(s);
+    lengths[11][2] = bad;
+    CHECK_THAT(
+        message_of([&] { return TriangleMesh<TestType>(s.positions.size(), s.faces, lengths); }),
+        Contains("face 11"));
+  }
+  Lengths lengths = lengths_of(s);
+  lengths.pop_back();
+  CHECK_THROWS_AS(TriangleMesh<TestType>(s.positions.size(), s.faces, lengths), InputError);
+  Surface t = s;
+  t.faces[2] = {0, 1, 99};
+  CHECK_THAT(message_of([&] {
+               return TriangleMesh<TestType>(s.positions.size(), t.faces, lengths_of(s));
+             }),
+             Contains("face 2") && Contains("vertex 99"));
+}
+
+TEST_CASE("an extent beyond the largest number is refused") {
+  Surface s;
+  s.add(-1.7e308, 0), s.add(1.7e308, 0), s.add(0, 1.7e308);
+  s.triangle(0, 1, 2);
+  CHECK_THAT(message_of([&] { return s.mesh<double>(); }), Contains("face 0"));
+}
+
+TEMPLATE_TEST_CASE("two lengths of one edge are refused by its name", "", float, double) {
+  const std::vector<Face> faces = {{0, 1, 2}, {1, 3, 2}, {2, 3, 4}};
+  for (const double second : {1.5, 1 + 1e-7}) {
+    const Lengths lengths = {{1, 1, 1}, {1, 1, second}, {1, 1, 1}};
+    const std::string error = message_of([&] { TriangleMesh<TestType>(5, faces, lengths); });
+    if (second < 1.1) {
+      CHECK(error.empty());
+    } else {
+      CHECK_THAT(error, Contains("edge 1 - 2") && Contains("1.5"));
+      CHECK_THAT(
+          message_of([&] {
+            SimplicialComplex<TestType, 2>(5, faces, Lengths{{1, 1, 1}, {1, second, 1}, {1, 1, 1}});
+          }),
+          Contains("edge 1 - 2"));
+    }
+    const std::vector<std::array<Index, 4>> tets = {{0, 1, 2, 3}, {4, 3, 2, 1}};
+    const std::vector<std::array<double, 6>> six = {{1, 1, 1, 1, 1, 1}, {1, 1, second, 1, 1, 1}};
+    CHECK((message_of([&] { TetMesh<TestType>(5, tets, six); }).find("edge 2 - 3") !=
+           std::string::npos) == (second > 1.1));
+  }
+  // Where paths are refracted an edge has two.
+  SurfaceHints hints;
+  hints.refracts = true;
+  CHECK_NOTHROW(
+      TriangleMesh<TestType>(5, faces, Lengths{{1, 1, 1}, {1, 1, 1.5}, {1, 1, 1}}, hints));
 }
 
 }  // namespace plexway::testing::building_test

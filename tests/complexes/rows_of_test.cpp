@@ -1,3 +1,4 @@
+#include <Eigen/Core>
 #include <array>
 #include <atomic>
 #include <catch2/catch.hpp>
@@ -8,7 +9,6 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include <plexway/cloud/point_cloud.hpp>
@@ -26,18 +26,6 @@ namespace plexway::testing::rows_of_test {
 
 namespace {
 
-// What of Eigen's matrices counts, in either order.
-template <class T, bool by_columns>
-struct Matrix {
-  std::vector<T> numbers;
-  int height, width;
-  int rows() const { return height; }
-  int cols() const { return width; }
-  const T& operator()(int i, int k) const {
-    return numbers[static_cast<std::size_t>(by_columns ? k * height + i : i * width + k)];
-  }
-};
-
 template <class Mesh>
 std::vector<double> from_first(const Mesh& mesh) {
   const auto field = solve(Serial{}, mesh, 0);
@@ -52,8 +40,10 @@ TEST_CASE("points and simplices of any array") {
   const std::vector<std::array<double, 3>> doubles = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}};
   const std::vector<std::int64_t> flat = {0, 1, 2, 0, 2, 3};
   const std::list<std::vector<short>> rows = {{0, 1, 2}, {0, 2, 3}};
-  const Matrix<float, true> eigen = {{0, 4, 4, 0, 0, 0, 3, 3, 0, 0, 0, 0}, 4, 3};
-  const Matrix<int, false> other = {{0, 1, 2, 0, 2, 3}, 2, 3};
+  Eigen::MatrixXf eigen(4, 3);
+  eigen << 0, 0, 0, 4, 0, 0, 4, 3, 0, 0, 3, 0;
+  Eigen::Matrix<int, 2, 3, Eigen::RowMajor> other;
+  other << 0, 1, 2, 0, 2, 3;
   CHECK(from_first(TriangleMesh<double>(singles, flat)) == truth);
   CHECK(from_first(TriangleMesh<double>(doubles, rows)) == truth);
   CHECK(from_first(TriangleMesh<double>(eigen, other)) == truth);
@@ -67,7 +57,8 @@ TEST_CASE("points and simplices of any array") {
 TEST_CASE("domains have the precision of the points that they are made of") {
   const std::vector<std::array<float, 3>> singles = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 1}};
   const std::vector<std::array<double, 3>> doubles = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 1}};
-  const Matrix<float, true> eigen = {{0, 4, 4, 0, 0, 0, 3, 3, 0, 0, 0, 0}, 4, 3};
+  Eigen::MatrixXf eigen(4, 3);
+  eigen << 0, 0, 0, 4, 0, 0, 4, 3, 0, 0, 3, 0;
   const std::vector<int> corners = {0, 1, 2}, whole = {0, 0, 0, 4, 0, 0, 4, 3, 0};
   const std::vector<std::array<Index, 3>> plain = {{0, 1, 2}};
   const auto same = []<class D>(const D& domain, const std::type_identity<D>&) {
@@ -97,7 +88,8 @@ TEST_CASE("a cloud and complexes of simplices of any array") {
 
   const std::vector<std::int64_t> flat = {0, 1, 2, 0, 2, 3};
   const std::list<std::vector<short>> plane = {{0, 0}, {4, 0}, {4, 3}, {0, 3}};
-  const Matrix<float, true> eigen = {{0, 4, 4, 0, 0, 0, 3, 3}, 4, 2};
+  Eigen::MatrixXf eigen(4, 2);
+  eigen << 0, 0, 4, 0, 4, 3, 0, 3;
   CHECK(from_first(SimplicialComplex<double, 2>(plane, flat)) == truth);
   CHECK(from_first(SimplicialComplex<double, 2>(eigen, flat)) == truth);
   CHECK(from_first(SimplicialComplex<double, 2>(singles, flat)) == truth);
@@ -141,7 +133,7 @@ TEST_CASE("rows that are none are refused") {
   CHECK_THROWS_WITH(three(std::vector<int>{0, 1, -2}), "row 0: -2 is no number of a vertex");
   CHECK_THROWS_WITH(three(std::vector<std::int64_t>{0, 1, std::int64_t{1} << 32}),
                     "row 0: 4294967296 is no number of a vertex");
-  CHECK_THROWS_WITH(three(Matrix<int, true>{{0, 1}, 1, 2}), "row 0: expected 3 numbers");
+  CHECK_THROWS_WITH(three(Eigen::MatrixXi::Zero(1, 2).eval()), "row 0: expected 3 numbers");
   CHECK(three(std::vector<int>()).empty());
 }
 

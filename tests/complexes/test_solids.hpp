@@ -13,6 +13,7 @@
 
 /// Solids made on the spot, for tests of the core.
 namespace plexway::testing {
+using namespace detail;
 
 using Tet = std::array<Index, 4>;
 

@@ -58,7 +58,7 @@ std::vector<Named<Real>> domains() {
   Built<Real> layers, wired, rooms, blocks;
   const double speeds[] = {1, 2, .7, 1.4};
   const auto in_layers =
-      blocks_of({{.25, .5, .75}, {std::begin(speeds), std::end(speeds)}}, 8, .15, 3);
+      blocks_of({{.25, .5, .75}, {std::begin(speeds), std::end(speeds)}}, 12, .15, 3);
   for (std::size_t k = 0; k < in_layers.size(); ++k) layers.add(in_layers[k], speeds[k]);
   all.push_back({"layers", layers.complex});
   wired.add(block({0, 0, 0}, {1, 1, 1}, 8));
@@ -69,6 +69,8 @@ std::vector<Named<Real>> domains() {
       for (int k = 0; k < 9; ++k) line.push_back({i / 8., j / 8., k / 8.});
       wired.add(rod(line), 1 + .5 * (i + j));
     }
+  // Large enough that threads share its strings.
+  wired.add(block({1, 0, 0}, {2, 1, 1}, 8));
   all.push_back({"wired", wired.complex});
   rooms.add(sheet({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 12, 12));
   rooms.add(sheet({1, 0, 0}, {0, 0, 1}, {0, 1, 0}, 12, 12), 2);

@@ -1,10 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include <array>
 #include <atomic>
 #include <cstddef>
-#include <functional>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>

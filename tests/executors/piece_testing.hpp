@@ -1,8 +1,8 @@
 #pragma once
 
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <cstddef>
+#include <random>
 #include <string>
 #include <thread>
 #include <vector>

@@ -20,6 +20,7 @@
 
 /// A small domain of every kind and metric where distances have a closed form, whatever the source.
 namespace plexway::testing {
+using namespace detail;
 
 using Place = std::array<double, 4>;
 

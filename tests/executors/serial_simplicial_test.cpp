@@ -1,7 +1,5 @@
 #include <catch2/catch.hpp>
 
-#include <functional>
-
 #include <plexway/error.hpp>
 
 #include "labels/simplex_testing.hpp"
@@ -123,17 +121,9 @@ TEMPLATE_TEST_CASE("solving a simplicial domain again gives the same bits", "", 
   const HoledCube<4> cube(5);
   const auto domain = cube.complex<TestType>();
   Workspace<TestType> workspace;
-  DistanceField<TestType> field;
   const PointSource one[] = {PointSource::at(0)};
   const PointSource two[] = {PointSource::at(1295), PointSource::at(7)};
-  plexway::solve(Serial{}, domain, one, {}, workspace, field);
-  const auto first = field.distance;
-  plexway::solve(Serial{}, domain, two, {}, workspace, field);
-  CHECK(field.label.size() == cube.grid.vertex_count());
-  plexway::solve(Serial{}, domain, one, {}, workspace, field);
-  CHECK(field.distance == first);
-  CHECK(field.label.empty());
-  CHECK(plexway::solve(Serial{}, domain, one[0]).distance == first);
+  check_again(workspace, domain, one, two);
   CHECK(workspace.bytes() > domain.vertex_count() * 100);
 }
 

@@ -14,8 +14,10 @@
 #include "complexes/jittered.hpp"
 #include "executors/parts_testing.hpp"
 #include "executors/same_work.hpp"
+#include "message_of.hpp"
 
 namespace plexway::testing::surface_parts_cut_test {
+using namespace detail;
 
 // Surfaces in parts: into which pieces they are cut, what is told of the whole, where points are,
 // and that all processes have the same.
@@ -93,11 +95,7 @@ TEST_CASE("parts: processes with other rows are told so") {
   const auto known_by = [&](std::size_t ranks, const auto& rows_of) {
     std::vector<std::string> told(ranks);
     ThreadRanks(ranks).run([&](PieceRanks& own) {
-      try {
-        check_same_rows(own, RowsOf(rows_of(own.rank())));
-      } catch (const InputError& error) {
-        told[own.rank()] = error.what();
-      }
+      told[own.rank()] = message_of([&] { check_same_rows(own, RowsOf(rows_of(own.rank()))); });
     });
     return told;
   };

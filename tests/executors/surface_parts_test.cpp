@@ -1,11 +1,9 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <limits>
 #include <random>
 #include <string>
 #include <vector>

@@ -128,7 +128,6 @@ TEMPLATE_TEST_CASE("pieces: wireframes have Serial's distances with any number o
       for (const Schedule schedule : {Schedule::dual_queue, Schedule::fifo}) {
         PropagateOptions options;
         options.schedule = schedule;
-        options.vectorised = seed % 3 != 0;
         const auto sources = some_sources(wires, count, ++seed);
         const auto alone = solve(Serial{}, wires, sources, options);
         solve(pieces(1, 32), wires, sources, options, workspace, first);

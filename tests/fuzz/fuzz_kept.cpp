@@ -8,6 +8,7 @@
 #include "fuzz_solve.hpp"
 
 namespace plexway::fuzz_kept {
+using namespace detail;
 
 namespace {
 

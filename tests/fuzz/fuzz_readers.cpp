@@ -1,7 +1,5 @@
 // Readers of surfaces, solids, wireframes and clouds, by format.
 
-#include <vector>
-
 #include <plexway/io/edges.hpp>
 #include <plexway/io/points.hpp>
 
@@ -54,6 +52,15 @@ PLEXWAY_FUZZER(annotation)(const std::uint8_t* data, std::size_t size) {
         {reinterpret_cast<const char*>(data), size}, "input");
     fuzz::require(8 * labels.size() < size, "no more vertices than bytes");
   });
+}
+
+// Meshes and points.
+PLEXWAY_FUZZER(draco)(const std::uint8_t* data, std::size_t size) {
+  return fuzz::check_reader(
+      [](std::string_view bytes, std::string_view name) {
+        return plexway::io::parse_draco(bytes, name);
+      },
+      data, size);
 }
 
 PLEXWAY_FUZZER(edge_list)(const std::uint8_t* data, std::size_t size) {
@@ -128,6 +135,10 @@ PLEXWAY_FUZZER(ply_points)(const std::uint8_t* data, std::size_t size) {
 
 PLEXWAY_FUZZER(stl)(const std::uint8_t* data, std::size_t size) {
   return fuzz::check_reader(plexway::io::parse_stl, data, size);
+}
+
+PLEXWAY_FUZZER(three_mf)(const std::uint8_t* data, std::size_t size) {
+  return fuzz::check_reader(plexway::io::parse_three_mf, data, size);
 }
 
 PLEXWAY_FUZZER(vtk)(const std::uint8_t* data, std::size_t size) {

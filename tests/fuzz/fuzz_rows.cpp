@@ -3,8 +3,8 @@
 
 #include "fuzz_reader.hpp"
 #include "io/number_rows.hpp"
-#include "shape/errors/truth_file.hpp"
-#include "shape/tuning/policy_file.hpp"
+#include "shape/errors/measures.hpp"
+#include "shape/tuning/tuning.hpp"
 
 PLEXWAY_FUZZER(rows)(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
@@ -18,14 +18,14 @@ PLEXWAY_FUZZER(rows)(const std::uint8_t* data, std::size_t size) {
           for (const double x : row.numbers) fuzz::require(!std::isnan(x), "no NaN in a row");
         break;
       case 1:
-        for (const double x : plexway::read_truth(name, 3 + kind / 16))
+        for (const double x : plexway::detail::read_truth(name, 3 + kind / 16))
           fuzz::require(!(x < 0), "no distance below 0");
         break;
       case 2:
-        (void)plexway::read_probe_table(name);
+        (void)plexway::detail::read_probe_table(name);
         break;
       default:
-        (void)plexway::read_saddle_thresholds(name);
+        (void)plexway::detail::read_saddle_thresholds(name);
     }
   });
 }

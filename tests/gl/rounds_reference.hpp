@@ -13,6 +13,7 @@
 #include "labels/surface/saddle_step.hpp"
 
 namespace plexway::testing {
+using namespace detail;
 
 /// What the shaders do with a surface, one entry after another on the processor: the same rounds,
 /// the same arithmetic, in plain C++, whatever the size of a front. (Only where nothing is pinched

@@ -2,7 +2,6 @@
 // strings.
 
 #include <algorithm>
-#include <array>
 #include <catch2/catch.hpp>
 #include <random>
 #include <vector>

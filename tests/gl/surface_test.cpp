@@ -1,3 +1,20 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include <plexway/executors/gl.hpp>
+#include <plexway/io/triangles.hpp>
+#include <plexway/solve.hpp>
+
+#include "complexes/test_clouds.hpp"
+#include "data/corner_domains.hpp"
+#include "exact_data.hpp"
+#include "gl/device.hpp"
+#include "gl/rounds_reference.hpp"
+#include "labels/solving.hpp"
+#include "with_accuracy.hpp"
+
+namespace plexway::testing::surface_test {
+
 // Surfaces on a GL device against the serial executor.
 //
 // A triangle keeps one label, the best for its centre, so which of two nearly equal paths the
@@ -6,23 +23,6 @@
 // with noise in the last digits of the input, and by rounds as the shaders do them, in C++. Where
 // that is less than 1e-4 (mean) and 1e-3 (worst), the device must be as close as that; elsewhere
 // within twice of it.
-
-#include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-
-#include <plexway/executors/gl.hpp>
-#include <plexway/io/triangles.hpp>
-#include <plexway/solve.hpp>
-
-#include "exact_data.hpp"
-#include "gl/device.hpp"
-#include "gl/rounds_reference.hpp"
-#include "labels/solving.hpp"
-#include "with_accuracy.hpp"
-
-namespace plexway::testing::surface_test {
 
 namespace {
 
@@ -333,6 +333,49 @@ TEST_CASE("one field a source on a device", "[gl]") {
   std::vector<float> short_of(5);
   GLWorkspace workspace;
   CHECK_THROWS_AS(solve_each(GL{}, mesh, sources, {}, workspace, short_of), UsageError);
+}
+
+// Clouds on a GL device and on several threads: their sheets are surfaces, so what is tested is
+// that they arrive there and come back, against great circles.
+
+TEST_CASE("points of a sphere, two of them twins, on several threads and on a GL device") {
+  auto cloud = samples::sphere_cloud(2500);
+  cloud.points.push_back(cloud.points[17]);
+  const PointCloud<float> domain(cloud.points, test_clouds::near_pairs(cloud.points));
+  const std::size_t twin = cloud.points.size() - 1;
+  const auto check = [&](const DistanceField<float>& field) {
+    REQUIRE(field.distance.size() == cloud.points.size());
+    double mean = 0;
+    for (std::size_t i = 1; i < twin; ++i)
+      mean += std::abs(double(field.distance[i]) / cloud.distance(0, i) - 1) / double(twin);
+    CHECK(mean < 1.5e-3);
+    CHECK(field.distance[twin] == field.distance[17]);
+    CHECK(field.distance[0] == 0);
+  };
+  check(solve(Serial{}, domain, PointSource::at(0)));
+  if (openmp_built()) check(solve(OpenMP{2}, domain, PointSource::at(0)));
+  if (testing::device()) check(solve(GL{}, domain, PointSource::at(0)));
+  const auto from_twin = solve(Serial{}, domain, PointSource::at(static_cast<Index>(twin)));
+  CHECK(from_twin.distance[17] == 0);
+}
+
+// Flat domains with corners on a GL device: no light leaks behind them, as with one thread
+// (tests/labels/corners_test.cpp). The exact distances are those of a visibility graph.
+
+TEST_CASE("a device knows of corners as one thread does", "[gl]") {
+  if (!device()) return;
+  for (const samples::CornerDomain& domain : samples::corner_domains())
+    for (const Index n : {50u, 100u}) {
+      const samples::Shape grid = domain.grid(n);
+      const TriangleMesh<float> mesh(grid.points, grid.faces);
+      const auto field = solve(GL{}, mesh, PointSource::at(0));
+      const Errors errors = testing::compare(field.distance, domain.distances(grid.points));
+      CAPTURE(domain.name, n, errors.mean, errors.max, errors.below);
+      CHECK(errors.fits);
+      CHECK(errors.mean <= 2e-6);
+      CHECK(errors.max <= 1e-3);
+      CHECK(errors.below >= -1e-4);
+    }
 }
 
 }  // namespace plexway::testing::surface_test

@@ -6,7 +6,6 @@
 #include <set>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "house/source_tree.hpp"
 
@@ -58,6 +57,36 @@ TEST_CASE("headers have an include guard that cannot clash") {
       CHECK(std::find(lines.begin(), lines.end(), "#pragma once") != lines.end());
     }
   }
+}
+
+TEST_CASE("internal headers do not open plexway itself") {
+  // What is public and defined in an internal header all the same.
+  const std::set<std::string> public_too = {
+      "src/executors/gl/workspace.hpp",  // what GLWorkspace holds
+      "src/executors/run.hpp",           // the verbs, compiled for each executor and domain
+      "src/shape/kept_build.hpp",        // declares BuildOptions
+      "src/shape/prepared.hpp",          // what AnyDomain and AnyPathField hold
+      "src/shape/shape_state.hpp",       // what AnyShape holds
+  };
+  std::size_t met = 0;
+  for (const char* dir : {"include", "src", "complexes"}) {
+    for (const std::string& file : house::files_under(dir)) {
+      if (fs::path(file).extension() != ".hpp") continue;
+      const auto lines = house::lines_of(file);
+      const auto has = [&](const char* line) {
+        return std::find(lines.begin(), lines.end(), line) != lines.end();
+      };
+      const bool is_public =
+          file.find("include/") != file.npos && file.find("/detail/") == file.npos;
+      INFO(file);
+      if (file.find("include/") != file.npos)
+        CHECK(text_of(file).find("using namespace") == std::string::npos);
+      if (is_public) continue;
+      CHECK(has("namespace plexway {") == (public_too.count(file) == 1));
+      met += public_too.count(file);
+    }
+  }
+  CHECK(met == public_too.size());
 }
 
 TEST_CASE("the top level is the one agreed on") {

@@ -1,6 +1,3 @@
-// Files that may hold any kind: what is written reads back, what others write, and cells of several
-// dimensions in one file, the same in every format.
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -18,6 +15,9 @@
 #include "io_testing.hpp"
 
 namespace plexway::cells_test {
+
+// Files that may hold any kind: what is written reads back, what others write, and cells of several
+// dimensions in one file, the same in every format.
 
 using namespace io_testing;
 using Catch::Contains;
@@ -204,6 +204,12 @@ TEST_CASE("glTF is where its nodes put it") {
       CHECK(twice.positions[3 + v][k] == Approx(moved[v][k]).margin(1e-12));
 }
 
+TEST_CASE("glTF in a mirror looks outwards") {
+  if (!reads_gltf()) return;
+  CHECK(gltf_of(gltf(R"({"mesh":0,"scale":[1,1,-1]})", indexed)).triangles == Faces{{0, 2, 1}});
+  CHECK(gltf_of(gltf(R"({"mesh":0,"scale":[1,-1,-1]})", indexed)).triangles == Faces{{0, 1, 2}});
+}
+
 TEST_CASE("glTF's seams are closed, but not those in files of plexway") {
   if (!reads_gltf()) return;
   // The same numbers behind two accessors, as exporters write a seam.
@@ -229,14 +235,21 @@ TEST_CASE("glTF that is packed, elsewhere or broken is refused in one line") {
     REQUIRE(broken.find(from) != broken.npos);
     return complaint(parse_gltf, broken.replace(broken.find(from), from.size(), to));
   };
-  CHECK_THAT(said(R"("nodes")", R"("extensionsRequired":["KHR_draco_mesh_compression"],"nodes")"),
-             Contains("is packed (KHR_draco_mesh_compression), which is not read; unpack it"));
+  CHECK_THAT(said(R"("nodes")", R"("extensionsRequired":["EXT_meshopt_compression"],"nodes")"),
+             Contains("is packed (EXT_meshopt_compression), which is not read; unpack it"));
   CHECK_THAT(said("data:;base64,", "mesh.bin?"), Contains("in another file"));
   CHECK_THAT(said(R"("byteLength":36)", R"("byteLength":35)"), Contains("fewer numbers"));
   CHECK_THAT(said(R"("byteLength":6})", R"("byteLength":600})"), Contains("outside its buffer"));
   CHECK_THAT(said(R"("POSITION":0)", R"("POSITION":1)"), Contains("not of type VEC3"));
   CHECK_THAT(said(R"("mesh":0)", R"("mesh":4)"), Contains("names '4' of 1 meshes"));
   CHECK_THAT(said(R"("mesh":0)", R"("children":[0])"), Contains("circle"));
+  std::string twice = R"({"mesh":0})";  // and the next one, two to the power of thirty times
+  for (int i = 0; i < 30; ++i) {
+    const std::string below = std::to_string(i) + "," + std::to_string(i);
+    twice += R"(,{"children":[)" + below + "]}";
+  }
+  CHECK_THAT(said(R"([{"mesh":0}])", "[" + twice + R"(],"scenes":[{"nodes":[30]}])"),
+             Contains("repeat each other"));
   CHECK_THAT(said(R"("nodes")", R"("nodes)"), Contains("JSON is broken"));
   CHECK_THAT(complaint(parse_gltf, "glTF"), Contains("ends inside its header"));
   CHECK_THAT(complaint(parse_gltf, "{}"), Contains("has no points"));
@@ -344,6 +357,113 @@ TEST_CASE("simplices of any dimension come from a text") {
   fails("dimension 1\nvertices 99999999999\nsimplices 1\n0 1 1\n", "too short");
   fails("dimension 1\nvertices 2\nsimplices 99999999999\n0 1 1\n", "ends before simplex 1");
   fails("dimension 1\nvertices 2\nsimplices 1\n0 1 1\n0 1 1\n", "behind the last simplex");
+}
+
+// .glb and .gltf against the rules of the specification, as gltf_peer.py reads them, and VTK where
+// it is installed.
+
+using namespace plexway::io;
+
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+bool peer(const std::string& arguments, const Folder& folder) {
+  static const std::string python = io_testing::python_with("numpy");
+  return python.empty() || io_testing::run_peer(python, "gltf_peer.py", arguments, folder);
+}
+
+std::string quoted(const std::filesystem::path& file) {
+  return std::string("'").append(file.string()).append("'");
+}
+
+const Triangles surface = {{{0, 0, 0}, {1, 0, 0}, {0, 1.5, 0}, {0, 0, -2}}, {{0, 1, 2}, {0, 2, 3}}};
+const std::vector<double> distance = {0, 1, 1.5, inf};
+
+}  // namespace
+
+TEST_CASE("glTF of a surface: positions, colours, distances, labels") {
+  const Folder folder;
+  const std::vector<std::int32_t> label = {0, 0, 3, -1};
+  for (const char* name : {"a.glb", "a.gltf"}) {
+    INFO(name);
+    write_field(folder.path() / name, surface, distance, label);
+    CHECK(peer("check " + quoted(folder.path() / name) +
+                   " --mode 4 --vertices 4 --cells 2 --distance 0,1,1.5,-1 --label 0,0,3,-1"
+                   " --low 0,0,-2 --high 1,1.5,0",
+               folder));
+  }
+}
+
+TEST_CASE("glTF of a solid is its boundary, of wires lines, of a cloud points") {
+  const Folder folder;
+  // The octahedron about a vertex in the middle: eight tetrahedra.
+  Tets solid{{{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}, {}};
+  for (const std::uint32_t x : {1u, 2u})
+    for (const std::uint32_t y : {3u, 4u})
+      for (const std::uint32_t z : {5u, 6u}) solid.tets.push_back({0, x, y, z});
+  write_field(folder.path() / "solid.glb", solid, std::vector<double>{0, 1, 2, 3, 4, 5, 6});
+  CHECK(peer("check " + quoted(folder.path() / "solid.glb") +
+                 " --mode 4 --vertices 6 --cells 8 --distance 1,2,3,4,5,6",
+             folder));
+  const Edges wires{{{0, 0, 0}, {1, 2, 3}, {4, 5, 6}}, {{0, 1}, {1, 2}}, {}, 3};
+  write_field(folder.path() / "wires.glb", wires, std::vector<double>{0, 1, 2});
+  CHECK(peer("check " + quoted(folder.path() / "wires.glb") + " --mode 1 --vertices 3 --cells 2",
+             folder));
+  const Points cloud{{{0, 0, 0}, {1, 2, 3}}, {}};
+  write_field(folder.path() / "cloud.glb", cloud, std::vector<double>{0, 1});
+  CHECK(peer("check " + quoted(folder.path() / "cloud.glb") + " --mode 0 --vertices 2 --cells 2",
+             folder));
+}
+
+TEST_CASE("glTF far from the origin keeps the shape by a translation") {
+  Triangles far = surface;
+  for (auto& p : far.positions) p[0] += 1e7;
+  const Folder folder;
+  write_field(folder.path() / "far.glb", far, distance);
+  CHECK(peer("check " + quoted(folder.path() / "far.glb") +
+                 " --mode 4 --vertices 4 --cells 2 --low 1e7,0,-2 --high 10000001,1.5,0",
+             folder));
+}
+
+TEST_CASE("surfaces and wireframes are written in every format and read back the same") {
+  const Folder folder;
+  for (const std::string_view extension : triangle_output_extensions()) {
+    const auto file = folder.path() / std::string("s").append(extension);
+    write_triangles(file, surface);
+    INFO(file);
+    if (extension == ".glb" || extension == ".gltf") {
+      CHECK(peer("check " + quoted(file) + " --mode 4 --vertices 4 --cells 2 --plain", folder));
+      continue;
+    }
+    if (extension == ".vtu" || extension == ".vtk")
+      continue;  // meshio_test.cpp has those of fields
+    const Triangles back = read_triangles(file);
+    CHECK(back.positions == surface.positions);  // small numbers fit single precision, too
+    CHECK(back.triangles == surface.triangles);
+  }
+  const Edges wires{{{0, 0, 0}, {1, 2, 3}, {4, 5, 6}}, {{0, 1}, {1, 2}}, {}, 3};
+  write_edges(folder.path() / "w.obj", wires);
+  CHECK(read_edges(folder.path() / "w.obj").positions == wires.positions);
+  CHECK(read_edges(folder.path() / "w.obj").edges == wires.edges);
+  write_edges(folder.path() / "w.edges", wires);
+  CHECK(read_edges(folder.path() / "w.edges").lengths[0] == Approx(std::sqrt(14.0)));
+  CHECK_THROWS_AS(write_triangles(folder.path() / "s.xyz", surface), plexway::UsageError);
+  CHECK_THROWS_AS(write_triangles(folder.path() / "s.obj", {{{0, 0, 0}}, {{0, 1, 2}}}),
+                  plexway::UsageError);
+  CHECK_THROWS_AS(write_edges(folder.path() / "w.obj", {{}, {{0, 1}}, {1}, 2}),
+                  plexway::UsageError);
+}
+
+TEST_CASE("NumPy and VTK read what we write") {
+  const Folder folder;
+  write_field(folder.path() / "d.npy", surface, distance);
+  const std::vector<std::int32_t> label = {0, 0, 3, -1};
+  write_field(folder.path() / "d.vtu", surface, distance, label);
+  write_field(folder.path() / "d.ply", surface, distance, label);
+  write_field(folder.path() / "d.glb", surface, distance, label);
+  CHECK(peer("numpy " + quoted(folder.path() / "d.npy") + " 0,1,1.5,inf", folder));
+  CHECK(peer("vtk " + quoted(folder.path()) + " 0,1,1.5,inf 0,0,3,-1", folder));
 }
 
 }  // namespace plexway::cells_test

@@ -115,10 +115,16 @@ TEST_CASE("field: a wireframe without positions") {
   CHECK(written("d.csv", wires, {}) == "vertex,distance\n0,0\n1,1\n2,0.5\n3,inf\n4,0.001\n5,2\n");
   const std::string npy = written("d.npy", wires);
   CHECK(npy.find("(6,)") != std::string::npos);
+  // 0, 1 and the like in single precision, little endian.
+  const std::string gii = written("d.func.gii", wires);
+  CHECK(gii.find("NumberOfDataArrays=\"2\"") != std::string::npos);
+  CHECK(gii.find("<![CDATA[distance]]>") <
+        gii.find("<Data>AAAAAAAAgD8AAAA/AACAf28SgzoAAABA</Data>"));
+  CHECK(gii.find("<![CDATA[label]]>") < gii.find("<Data>AAAAAAAAgL8AAABAAABAQAAAgEAAuIhH</Data>"));
   for (const std::string name : {"d.ply", "d.vtk", "d.vtu"})
     CHECK(misuse(name, wires, 6) ==
           name + ": " + name.substr(1) +
-              " needs positions, and these vertices have none; .csv and .npy do without");
+              " needs positions, and these vertices have none; .csv, .npy and .gii do without");
   CHECK(misuse("d.csv", wires, 5) == "write_field: 5 distances for 6 vertices");
   CHECK(misuse("d.csv", solid, 7) == "write_field: 7 distances for 6 vertices");
 }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <bit>
-#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -75,12 +74,7 @@ std::string attribute(const std::string& tag, const std::string& name) {
 template <class Failure>
 std::string failure(const std::filesystem::path& file, std::span<const double> values = distance,
                     std::span<const std::int32_t> labels = {}) {
-  try {
-    write_field(file, surface, values, labels);
-  } catch (const Failure& error) {
-    return error.what();
-  }
-  return "no failure";
+  return message_of<Failure>([&] { write_field(file, surface, values, labels); });
 }
 
 }  // namespace
@@ -211,7 +205,7 @@ TEST_CASE("write_field: wrong calls") {
   using plexway::UsageError;
   CHECK(failure<UsageError>(folder.path() / "d.xyz") ==
         (folder.path() / "d.xyz").string() +
-            ": unknown extension '.xyz'; known are .csv .npy .ply .vtk .vtu .glb .gltf");
+            ": unknown extension '.xyz'; known are .csv .npy .gii .ply .vtk .vtu .glb .gltf");
   const std::vector<double> short_one(3);
   CHECK_THAT(failure<UsageError>(folder.path() / "d.csv", short_one),
              Contains("3 distances for 4 vertices"));
@@ -219,7 +213,7 @@ TEST_CASE("write_field: wrong calls") {
   CHECK_THAT(failure<UsageError>(folder.path() / "d.csv", distance, labels),
              Contains("5 labels for 4 vertices"));
   CHECK(folder.files() == 0);
-  CHECK(plexway::io::field_extensions().size() == 7);
+  CHECK(plexway::io::field_extensions().size() == 8);
 }
 
 TEST_CASE("write_field: what the system refuses is told, and leaves nothing behind") {

@@ -10,6 +10,7 @@
 #include <plexway/io/formats.hpp>
 #include <plexway/io/mixed.hpp>
 #include <plexway/io/points.hpp>
+#include <plexway/io/simplices.hpp>
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 
@@ -98,8 +99,7 @@ TEST_CASE("a file's kind is told by its first bytes where its name does not say"
 
 TEST_CASE("what cannot be read is named, with what turns it into something that can") {
   const Folder folder;
-  CHECK_THAT(complaint_of(folder.write("a.3mf", "x")), Contains("save the surface as .stl"));
-  CHECK_THAT(complaint_of(folder.write("a.what", "PK\x03\x04 x")), Contains("a .3mf is not read"));
+  CHECK_THAT(complaint_of(folder.write("a.dae", "x")), Contains("save the surface as .stl"));
   CHECK_THAT(complaint_of(folder.write("a.meshb", "x")), Contains("transmesh"));
   CHECK_THAT(complaint_of(folder.write("a.nii", "x")), Contains("voxels"));
   CHECK_THAT(complaint_of(folder.write("a.laz", "x")), Contains("pdal"));
@@ -110,6 +110,33 @@ TEST_CASE("what cannot be read is named, with what turns it into something that 
     for (std::string one; list >> one;) CHECK_THAT(unknown, Contains(one));
   }
   CHECK_THAT(complaint_of(folder.path() / "none.dat"), Contains("no such file"));
+}
+
+TEST_CASE("bytes in memory have no other file beside them") {
+  const Folder folder;
+  for (const char* name : {"a.node", "a.ele"}) {
+    CHECK(complaint([&](std::string_view bytes, std::string_view) { io::parse_cells(bytes, name); },
+                    "1 3 0 0\n0 0 0 0\n") ==
+          std::string(name) +
+              ": is one of two files, .node and .ele: give their name instead of bytes, or save "
+              "them as one, such as .mesh or .vtu");
+    CHECK_THROWS_WITH(io::parse_points("1 3 0 0\n0 0 0 0\n", name), Contains("instead of bytes"));
+  }
+  // Not even where it does.
+  const auto node = folder.write("b.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
+  folder.write("b.ele", "1 4 0\n0 0 1 2 3\n");
+  CHECK(io::read_cells(node).tets.size() == 1);
+  CHECK_THROWS_WITH(io::parse_cells(bytes_of(node), node), Contains("instead of bytes"));
+  folder.write("b.bin", std::string(36, '\0'));
+  const std::string gltf =
+      R"({"buffers":[{"uri":"b.bin","byteLength":36}],"bufferViews":[{"buffer":0,"byteLength":36}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})";
+  try {
+    CHECK(io::read_cells(folder.write("b.gltf", gltf)).positions.size() == 1);
+    CHECK_THROWS_WITH(io::parse_cells(gltf, folder.at("b.gltf")), Contains("in another file"));
+  } catch (const NotBuiltError&) {
+  }
 }
 
 TEST_CASE("files packed by gzip are read, and bombs are not") {
@@ -126,6 +153,10 @@ TEST_CASE("files packed by gzip are read, and bombs are not") {
   CHECK(io::read_cells(folder.write("b.gz", packed)).triangles.size() == 1);
   CHECK_THAT(complaint_of(folder.write("cut.off.gz", packed.substr(0, packed.size() / 2))),
              Contains("does not unpack"));
+  const auto line =
+      folder.write("a.simplices", "dimension 1\nvertices 2 1\n0\n1\nsimplices 1\n0 1\n");
+  REQUIRE(std::system(("gzip -nk " + line.string()).c_str()) == 0);
+  CHECK(io::read_simplices(line.string() + ".gz").positions == std::vector<double>{0, 1});
   const auto bomb = folder.path() / "bomb.off.gz";
   REQUIRE(std::system(("head -c 200000000 /dev/zero | gzip > " + bomb.string()).c_str()) == 0);
   CHECK_THAT(complaint_of(bomb), Contains("does not unpack"));

@@ -19,9 +19,11 @@
 #include "folder.hpp"
 #include "io/readers.hpp"
 #include "io/solid/cells.hpp"
+#include "message_of.hpp"
 
 namespace io_testing {
 
+using plexway::testing::message_of;
 using testing::Folder;
 
 inline std::string bytes_of(const std::filesystem::path& file) {
@@ -47,18 +49,13 @@ plexway::io::Edges edges(std::string_view bytes, std::string_view name) {
 /// The message of the InputError that `parse(bytes, "mesh")` must throw.
 template <class Parser>
 std::string complaint(Parser parse, std::string_view bytes) {
-  try {
-    parse(bytes, "mesh");
-  } catch (const plexway::InputError& error) {
-    return error.what();
-  }
-  return "no complaint";
+  return message_of([&] { parse(bytes, "mesh"); });
 }
 
 /// The message of the InputError that reading `file` must throw.
 template <class Reader>
 std::string complaint_of(Reader read, const std::filesystem::path& file) {
-  return complaint([&](std::string_view, std::string_view) { static_cast<void>(read(file)); }, "");
+  return message_of([&] { static_cast<void>(read(file)); });
 }
 
 /// `text` with its first `from`, which must be there, changed to `to`.

@@ -1,6 +1,7 @@
 // The page that shows a result in a browser: what is in the file. That it draws was looked at in a
 // browser, from a disk.
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -13,6 +14,7 @@
 #include <plexway/io/edges.hpp>
 #include <plexway/io/page.hpp>
 #include <plexway/io/paths.hpp>
+#include <plexway/io/points.hpp>
 
 #include "io/base64.hpp"
 #include "io/io_testing.hpp"
@@ -181,6 +183,24 @@ TEST_CASE("paths as PLY and VTP have all points and lines") {
   CHECK(vtp.find("NumberOfLines=\"2\"") != vtp.npos);
   CHECK(vtp.find("3 5 ") != vtp.npos);
   CHECK(vtp.find("3.25 1 ") != vtp.npos);
+}
+
+TEST_CASE("paths as CSV are points that read back, each with its path") {
+  const Folder folder;
+  io::write_paths(folder.path() / "p.csv", two_paths());
+  const std::string csv = bytes_of((folder.path() / "p.csv").string());
+  CHECK(csv.starts_with("path,x,y,z\n0,"));
+  CHECK(csv.find("\n2,") != csv.npos);  // the second is empty
+  CHECK(csv.find("\n1,") == csv.npos);
+  std::vector<std::array<double, 3>> points;
+  for (const Path& path : two_paths())
+    points.insert(points.end(), path.positions.begin(), path.positions.end());
+  CHECK(io::read_points(folder.path() / "p.csv").positions == points);
+
+  auto lines = two_paths();
+  for (Path& line : lines) line.source = 0;
+  io::write_isolines(folder.path() / "i.csv", lines, std::vector<double>{0.25});
+  CHECK(bytes_of((folder.path() / "i.csv").string()).find("1,2,0.5,0.25\n") != csv.npos);
 }
 
 TEST_CASE("paths that a format cannot hold are refused") {

@@ -1,4 +1,4 @@
-# Compiles every shader with glslangValidator; the kernel's own for every K, in float and double.
+# Compiles every shader with glslangValidator.
 #   cmake -DROOT=<source tree> -DOUT=<scratch folder> -DGLSLANG=<program> -P glsl_check.cmake
 include("${ROOT}/cmake/ShaderText.cmake")
 file(MAKE_DIRECTORY "${OUT}")
@@ -33,16 +33,7 @@ foreach(shader IN LISTS shaders)
   set(files "")
   plexway_expand_shader("${ROOT}" "${shader}" text files)
   string(REPLACE ".comp" "" name "${shader}")
-  if(name STREQUAL "kernel_check")
-    foreach(k RANGE 3)
-      foreach(type FLOAT DOUBLE)
-        check_shader("${shader}" "${text}" "#define PLEXWAY_K ${k}\n#define PLEXWAY_${type}\n"
-          "${name}_${k}_${type}")
-      endforeach()
-    endforeach()
-  else()
-    check_shader("${shader}" "${text}" "" "${name}")
-    check_shader("${shader}" "${text}" "#define PLEXWAY_LABELS\n#define PLEXWAY_REVIVE\n#define PLEXWAY_SOLIDS\n"
-      "${name}_variant")
-  endif()
+  check_shader("${shader}" "${text}" "" "${name}")
+  check_shader("${shader}" "${text}" "#define PLEXWAY_LABELS\n#define PLEXWAY_REVIVE\n#define PLEXWAY_SOLIDS\n"
+    "${name}_variant")
 endforeach()

@@ -141,23 +141,11 @@ TEMPLATE_TEST_CASE("position and attitude in space do not matter", "", float, do
 TEMPLATE_TEST_CASE("solving again gives the same bits", "", float, double) {
   const auto mesh = bumpy().mesh<TestType>();
   Workspace<TestType> workspace;
-  DistanceField<TestType> first, other, again;
   const PointSource here[] = {PointSource::at(7)};
   const PointSource there[] = {PointSource::at(500), PointSource::at(2)};
   for (const Visibility visibility : visibilities)
-    for (const Schedule schedule : schedules) {
-      PropagateOptions options;
-      options.visibility = visibility;
-      options.schedule = schedule;
-      plexway::solve(Serial{}, mesh, here, options, workspace, first);
-      plexway::solve(Serial{}, mesh, there, {}, workspace, other);
-      plexway::solve(Serial{}, mesh, here, options, workspace, again);
-      CAPTURE(name(options));
-      CHECK(first.distance == again.distance);
-      CHECK(first.statistics.expansions == again.statistics.expansions);
-      CHECK(first.statistics.updates == again.statistics.updates);
-      CHECK(first.distance == plexway::solve(Serial{}, mesh, here, options).distance);
-    }
+    for (const Schedule schedule : schedules)
+      check_again(workspace, mesh, here, there, {.visibility = visibility, .schedule = schedule});
 }
 
 TEST_CASE("thousands of solves on one workspace") {

@@ -42,9 +42,8 @@ struct Welded {
     else
       return complex.add(Wireframe<double>(timed, shape.edges), moved);
   }
-  std::size_t weld(const Piece& a, const Piece& b, WeldOptions options = {}) {
-    options.tolerance = 1e-6 * move.scale;
-    return complex.weld(a, b, options);
+  std::size_t weld(const Piece& a, const Piece& b) {
+    return complex.weld(a, b, {.tolerance = 1e-6 * move.scale});
   }
   Index nearest(const Piece& piece, const Position& p) const {
     Index best = piece.first_vertex;

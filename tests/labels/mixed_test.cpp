@@ -1,11 +1,15 @@
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstddef>
+#include <random>
 #include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/solve.hpp>
 
+#include "labels/solving.hpp"
 #include "mixed_domains.hpp"
 
 namespace mixed_test {
@@ -58,7 +62,7 @@ TEST_CASE("a sheet glued on the face of a block and beyond it") {
     const auto plate = domain.add(sheet({-1, 0, 1}, {2, 0, 0}, {0, 1, 0}, 8, 4));
     const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, 4));
     CHECK(domain.weld(plate, solid) == 25);
-    CHECK(domain.complex.summary().hinges == std::array<std::size_t, 3>{0, 4, 32});
+    CHECK(domain.complex.summary().hinges == std::array<std::size_t, 3>{0, 0, 32});
     const auto place = [&](Index v) -> const Position& { return domain.positions[v]; };
     const auto exact = [&](const Position& from, Index v) {
       const Position& to = place(v);
@@ -250,38 +254,8 @@ TEST_CASE("solving a mixed domain again gives the same bits") {
   const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, 4));
   domain.weld(plate, solid);
   Workspace<double> workspace;
-  DistanceField<double> first, again;
-  const PointSource source = PointSource::at(plate.vertex(1)), other = PointSource::at(0);
-  const auto solve = [&](const PointSource& s, DistanceField<double>& field) {
-    plexway::solve(Serial{}, domain.complex, std::span(&s, 1), {}, workspace, field);
-  };
-  solve(source, first);
-  solve(other, again);
-  solve(source, again);
-  CHECK(first.distance == again.distance);
-  CHECK(first.statistics.updates == again.statistics.updates);
-}
-
-TEST_CASE("lower hinges by request give the same or shorter paths") {
-  for (const bool lower : {false, true}) {
-    Welded domain(1);
-    const auto plate = domain.add(sheet({-1, 0, 1}, {2, 0, 0}, {0, 1, 0}, 8, 4));
-    const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, 4));
-    WeldOptions options;
-    options.all_edges = options.all_vertices = lower;
-    domain.weld(plate, solid, options);
-    const auto& hinges = domain.complex.summary().hinges;
-    CHECK(hinges[2] == 32);
-    CHECK(hinges[1] == (lower ? 56 : 4));
-    CHECK(hinges[0] == (lower ? 25 : 0));
-    const Position from = {-1, .5, 1};
-    const double worst = domain.worst(domain.nearest(plate, from), [&](Index v) {
-      const Position& p = domain.positions[v];
-      if (p[0] < 0) return distance(from, p);
-      return around(.5, 1, p[1], std::hypot(p[0], 1 - p[2]));
-    });
-    CHECK(worst < 1e-9);
-  }
+  const PointSource source[] = {PointSource::at(plate.vertex(1))}, other[] = {PointSource::at(0)};
+  plexway::testing::check_again(workspace, domain.complex, source, other);
 }
 
 TEST_CASE("what a mixed domain refuses") {
@@ -311,6 +285,112 @@ TEST_CASE("what a mixed domain refuses") {
   const std::array<Index, 2> right[] = {{0, 0}, {3, 3}};
   CHECK(domain.weld(a, b, right) == 2);
   CHECK(plexway::solve(Serial{}, domain, PointSource::at(0)).distance[7] == Approx(std::sqrt(2.)));
+}
+
+// Many wires in a solid.
+
+namespace {
+
+/// Wires along lines of vertices of a block, whose inner vertices are moved at random.
+struct Wired {
+  Wired(std::size_t n, std::size_t wires, double speed, unsigned seed) : domain(seed), c(speed) {
+    std::mt19937 random(seed + 1);
+    std::uniform_real_distribution<double> uniform(-.15 / double(n), .15 / double(n));
+    Block all = block({0, 0, 0}, {1, 1, 1}, n);
+    for (Position& p : all.positions)
+      for (double& x : p)
+        if (x > 1e-9 && x < 1 - 1e-9) x += uniform(random);
+    solid = domain.add(all);
+    for (std::size_t w = 0; w < wires; ++w) {
+      const std::size_t m = n + 1, i = random() % m, j = random() % m, axis = random() % 3;
+      std::vector<Position> line;
+      for (std::size_t k = 0; k < m; ++k) {
+        const std::array<std::size_t, 3> at[3] = {{i, j, k}, {k, i, j}, {j, k, i}};
+        line.push_back(all.positions[(at[axis][0] * m + at[axis][1]) * m + at[axis][2]]);
+      }
+      rods.push_back(domain.add(rod(line), speed));
+      domain.weld(solid, rods.back());
+    }
+  }
+
+  /// Legs are straight in the block or along wires, which they come to and leave at vertices and at
+  /// `parts` - 1 points of each edge: as many as are needed.
+  [[nodiscard]] std::vector<double> times(Index source, std::size_t parts) const {
+    std::vector<Position> at(domain.positions.begin(), domain.positions.end());
+    const std::size_t vertices = at.size();
+    std::vector<std::array<Index, 2>> edges;  // along wires
+    for (const auto& rod : rods)
+      for (Index v = rod.first_vertex + 1; v < rod.first_vertex + rod.vertices; ++v) {
+        Index last = v - 1;
+        for (std::size_t k = 1; k < parts; ++k) {
+          const double share = double(k) / double(parts);
+          Position p;
+          for (std::size_t i = 0; i < 3; ++i)
+            p[i] = at[v - 1][i] + share * (at[v][i] - at[v - 1][i]);
+          at.push_back(p);
+          edges.push_back({last, Index(at.size() - 1)});
+          last = Index(at.size() - 1);
+        }
+        edges.push_back({last, v});
+      }
+    std::vector<std::vector<Index>> beside(at.size());
+    for (const auto& [v, w] : edges) beside[v].push_back(w), beside[w].push_back(v);
+    std::vector<double> time(at.size(), infinity);
+    std::vector<Index> open = {source};
+    for (Index v = solid.vertices; v < at.size(); ++v) open.push_back(v);
+    time[source] = 0;
+    while (!open.empty()) {
+      const auto next = std::min_element(open.begin(), open.end(),
+                                         [&](Index v, Index w) { return time[v] < time[w]; });
+      const Index u = *next;
+      *next = open.back();
+      open.pop_back();
+      for (Index v = 0; v < solid.vertices; ++v)
+        time[v] = std::min(time[v], time[u] + distance(at[u], at[v]));
+      for (const Index v : open) time[v] = std::min(time[v], time[u] + distance(at[u], at[v]));
+      for (const Index v : beside[u])
+        time[v] = std::min(time[v], time[u] + distance(at[u], at[v]) / c);
+    }
+    time.resize(vertices);
+    return time;
+  }
+
+  Welded domain;
+  double c;
+  Welded::Piece solid{};
+  std::vector<Welded::Piece> rods;
+};
+
+}  // namespace
+
+TEST_CASE("wires of any speed in a block") {
+  for (const double c : {.5, 1., 2., 5.})
+    for (unsigned seed = 0; seed < 3; ++seed) {
+      const Wired wired(8, 20, c, seed);
+      const Index source = static_cast<Index>(wired.solid.vertices / 2 + 3 + seed);
+      const std::vector<double> times = wired.times(source, c > 1 ? 8 : 1);
+      const Errors e = errors(wired.domain, source, [&](Index v) { return times[v]; });
+      CAPTURE(c, seed, e.mean, e.worst, e.low);
+      // Where wires cross, strings of single vertices are lost; and the truth is coarse.
+      CHECK(e.mean < (c > 1 ? 5e-4 : 1e-14));
+      CHECK(e.worst < (c > 1 ? 2e-2 : 1e-12));
+      CHECK(e.low > (c > 1 ? -2e-3 : -1e-12));
+    }
+}
+
+TEST_CASE("wires hear of each other at a vertex of a solid that nothing else gains by") {
+  // Three wires meet in the corner of a block; one of them reaches it long before the block does.
+  Welded domain(5);
+  const auto solid = domain.add(block({0, 0, 0}, {1, 1, 1}, 4));
+  const auto to = domain.add(rod({{1, 0, 0}, {.75, 0, 0}, {.5, 0, 0}, {.25, 0, 0}, {0, 0, 0}}), 8);
+  const auto up = domain.add(rod({{0, 0, 0}, {0, 0, .25}, {0, 0, .5}, {0, 0, .75}, {0, 0, 1}}), 8);
+  const auto out = domain.add(rod({{0, 0, 0}, {0, -1, 0}, {0, -2, 0}}), 2);
+  for (const auto& wire : {to, up, out}) domain.weld(solid, wire);
+  const auto field = solve(Serial{}, domain.complex, PointSource::at(to.vertex(0)));
+  const auto time = [&](Index v) { return field.distance[v] / domain.move.scale; };
+  CHECK(time(to.vertex(4)) == Approx(1 / 8.).epsilon(1e-12));
+  CHECK(time(up.vertex(4)) == Approx(2 / 8.).epsilon(1e-12));
+  CHECK(time(out.vertex(2)) == Approx(1 / 8. + 1).epsilon(1e-12));
 }
 
 }  // namespace mixed_test

@@ -4,10 +4,11 @@
 
 #include <plexway/error.hpp>
 
+#include "labels/plain_rule.hpp"
 #include "labels/solving.hpp"
-#include "labels/surface/probe.hpp"
 
 namespace plexway::testing::probe_test {
+using namespace detail;
 
 namespace {
 
@@ -42,20 +43,6 @@ TEMPLATE_TEST_CASE("six entries say what the printed table of sixteen says", "",
   }
   CHECK(found.size() == 6);
   CHECK(different <= 2);  // on a threshold, by rounding
-}
-
-TEST_CASE("probes by policy") {
-  const ProbeTable table = {5, 4, .5, {.1, .2, .3, .4, .5, .6}};
-  const auto share = [&](Visibility policy, double second, double third, double height) {
-    return ProbeAim<double>(policy, table).share(1, second, third, height);
-  };
-  CHECK(share(Visibility::centroid, 1, 1, .8) == 1);
-  CHECK(share(Visibility::upper_bound, 1, 1, .8) == 0);
-  CHECK(share(Visibility::tuned, 1, 1, .866) == .1);
-  CHECK(share(Visibility::tuned, 1, .2, .15) == .5);
-  CHECK(share(Visibility::tuned, 10, 10, 9.9) == .3);
-  CHECK(share(Visibility::tuned, .6, .6, .3) == .4);
-  CHECK(share(Visibility::tuned, 6, 5.1, .1) == .6);
 }
 
 TEST_CASE("a table is data of a solve") {

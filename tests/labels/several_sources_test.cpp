@@ -7,6 +7,7 @@
 #include "windows/windows_solving.hpp"
 
 using namespace plexway;
+using namespace plexway::detail;
 using namespace plexway::testing;
 
 // Several sources, of which one may be the nearer in the middle of an edge alone.

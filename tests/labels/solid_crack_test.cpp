@@ -1,6 +1,3 @@
-// Sources on the faces of cracks and beside them. On a crack two faces of the boundary lie on each
-// other, and coordinates do not tell one from the other: its vertices do.
-
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -13,20 +10,21 @@
 #include <plexway/solid/tet_mesh.hpp>
 #include <plexway/solve.hpp>
 
+#include "complexes/test_solids.hpp"
 #include "labels/cracked_solid.hpp"
 #include "labels/solving.hpp"
+#include "message_of.hpp"
 
 namespace plexway::testing::solid_crack_test {
+
+// Sources on the faces of cracks and beside them. On a crack two faces of the boundary lie on each
+// other, and coordinates do not tell one from the other: its vertices do.
+
 namespace {
 
 template <class Domain, class Sources>
 std::string refusal(const Domain& domain, const Sources& sources) {
-  try {
-    static_cast<void>(solve(Serial{}, domain, sources));
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return {};
+  return message_of<UsageError>([&] { static_cast<void>(solve(Serial{}, domain, sources)); });
 }
 
 }  // namespace

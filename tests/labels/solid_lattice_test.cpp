@@ -1,6 +1,3 @@
-// Cubes of cells with some left out: lines run exactly into edges and vertices of lattices, and
-// along faces, and no path goes through a cell that is not there.
-
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -8,11 +5,17 @@
 #include <random>
 #include <vector>
 
+#include <plexway/solid/tet_mesh.hpp>
 #include <plexway/solve.hpp>
 
 #include "complexes/test_solids.hpp"
+#include "data/corner_domains.hpp"
+#include "labels/solving.hpp"
 
-namespace plexway::solid_lattice_test {
+namespace plexway::testing::solid_lattice_test {
+
+// Cubes of cells with some left out: lines run exactly into edges and vertices of lattices, and
+// along faces, and no path goes through a cell that is not there.
 
 namespace {
 
@@ -139,4 +142,137 @@ TEMPLATE_TEST_CASE("lines that went through cells that are left out", "", float,
   CHECK(wrong.hidden > 800);
 }
 
-}  // namespace plexway::solid_lattice_test
+// Prisms over plans where everything is on a lattice: lines of sight that lie in faces of
+// tetrahedra, and that two obstacles touch from both sides. Found by fuzzing.
+
+namespace {
+
+/// One layer over a grid of eight cells a side; heights and distances add up by their squares.
+/// `closed`: both lips of a slit, which begins at the rim, lie at the same place.
+template <class Real>
+Errors errors_over(const samples::CornerDomain& plan, double jitter, std::uint64_t seed,
+                   double height, bool closed = false) {
+  samples::Shape flat = plan.grid(8, jitter, seed);
+  auto beside = flat.points;  // lips of slits, where the graph can tell them apart
+  for (std::size_t v = 0; v < beside.size(); ++v)
+    for (const auto& b : plan.blocks) {
+      const double off = beside[v][0] - b.left;
+      if (b.left != b.right || off == 0 || std::abs(off) > 1e-12) continue;
+      beside[v][0] += off > 0 ? 1e-9 : -1e-9;
+      if (closed) flat.points[v][0] = b.left;
+    }
+  const std::vector<double> truth = plan.distances(beside);
+  const auto n = static_cast<Index>(flat.points.size());
+  std::vector<std::array<double, 3>> places;
+  std::vector<double> exact;
+  for (const double z : {0., height})
+    for (Index v = 0; v < n; ++v) {
+      places.push_back({flat.points[v][0], flat.points[v][1], z});
+      exact.push_back(std::hypot(truth[v], z));
+    }
+  std::vector<std::array<Index, 4>> tets;
+  for (std::array<Index, 3> f : flat.faces) {
+    std::sort(f.begin(), f.end());
+    tets.push_back({f[0], f[1], f[2], f[2] + n});
+    tets.push_back({f[0], f[1], f[1] + n, f[2] + n});
+    tets.push_back({f[0], f[0] + n, f[1] + n, f[2] + n});
+  }
+  const TetMesh<Real> solid(places, tets);
+  return compare(solve(Serial{}, solid, PointSource::at(0)).distance, exact);
+}
+
+}  // namespace
+
+TEST_CASE("lines of sight in faces, along the floor, and past what obstacles touch are exact") {
+  struct Case {
+    samples::CornerDomain plan;
+    double jitter;
+    std::uint64_t seed;
+    double height, was;  // the worst once
+  };
+  const std::vector<Case> cases = {
+      // In the plane of a face of a tetrahedron.
+      {{"", {{.125, .375, .25, .375}, {.125, .375, .75, .875}, {.625, .875, .25, .375}}, {0, .25}},
+       .16,
+       0xca,
+       .551171875,
+       .107},
+      // Touched from both sides.
+      {{"", {{.25, .375, .75, .875}, {.625, .875, .25, .375}, {.625, .875, .625, .75}}, {.75, .5}},
+       .08,
+       0xb9,
+       .56484375,
+       .071},
+      // Along the floor, over ends of edges that it only touches.
+      {{"", {{.25, .375, .25, .375}, {.125, .375, .625, .75}, {.75, .875, .25, .375}}, {.5, .125}},
+       .16,
+       0x87,
+       .4515625,
+       .056},
+      // Along a block's diagonal, if it could.
+      {{"", {{.125, .375, .25, .375}, {.25, .375, .75, .875}}, {.625, .5}},
+       .24,
+       0xc6,
+       .57265625,
+       -.032},
+      {{"",
+        {{.125, .25, .25, .375},
+         {.25, .375, .625, .875},
+         {.625, .75, .25, .375},
+         {.75, .875, .75, .875}},
+        {.875, .25}},
+       .08,
+       0x63,
+       .273828125,
+       -.018},
+      // Along the floor, touching one obstacle, around another.
+      {{"", {{.25, .375, .125, .375}, {.625, .875, .125, .375}, {.75, .875, .75, .875}}, {.25, 0}},
+       .24,
+       0x98,
+       .36953125,
+       .08},
+      {{"", {{.25, .375, .625, .875}, {.75, .875, .25, .375}, {.625, .75, .625, .875}}, {.75, 1}},
+       .24,
+       0x52,
+       .437890625,
+       .061},
+      {{"",
+        {{.25, .375, .25, .375},
+         {.125, .25, .75, .875},
+         {.75, .875, .25, .375},
+         {.625, .75, .625, .875}},
+        {0, .25}},
+       .24,
+       0x7e,
+       .43984375,
+       .053},
+      {{"", {{.25, .375, .25, .375}, {.25, .375, .75, .875}, {.625, .875, .625, .875}}, {.25, 1}},
+       .24,
+       0xa2,
+       .31875,
+       .05}};
+  for (const auto& [plan, jitter, seed, height, was] : cases) {
+    const Errors e = errors_over<double>(plan, jitter, seed, height);
+    CAPTURE(seed, was, e.mean, e.max, e.below);
+    CHECK(e.fits);
+    CHECK(e.max <= 1e-9);
+    CHECK(e.below >= -1e-12);
+  }
+}
+
+TEST_CASE("at the end of a crack, open or closed") {
+  for (const samples::CornerDomain& plan :
+       {samples::CornerDomain{"", {{.5, .5, 0, .5}}, {.25, .125}},
+        samples::CornerDomain{"", {{.625, .625, 0, .25}}, {.5, .125}},
+        samples::CornerDomain{"", {{.25, .25, 0, .75}, {.625, .625, 0, .375}}, {.125, .25}}})
+    for (const bool closed : {false, true}) {
+      const Errors e = errors_over<double>(plan, 0.16, 3, 0.3, closed);
+      CAPTURE(plan.blocks.size(), plan.source[0], closed, e.mean, e.max, e.below);
+      CHECK(e.fits);
+      CHECK(e.mean <= 1e-8);
+      CHECK(e.max <= 1e-6);  // 0.14 where it was closed
+      CHECK(e.below >= -1e-7);
+    }
+}
+
+}  // namespace plexway::testing::solid_lattice_test

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -29,6 +30,24 @@ std::vector<double> solve(const TriangleMesh<Real>& mesh, const PointSource& sou
                           const PropagateOptions& options = {}) {
   const auto field = plexway::solve(Serial{}, mesh, source, options);
   return {field.distance.begin(), field.distance.end()};
+}
+
+/// Solved before and after others in one memory, and without any: the same.
+template <class Domain>
+void check_again(Workspace<RealOf<Domain>>& workspace, const Domain& domain,
+                 std::span<const PointSource> here, std::span<const PointSource> others,
+                 const PropagateOptions& options = {}) {
+  DistanceField<RealOf<Domain>> first, again;
+  plexway::solve(Serial{}, domain, here, options, workspace, first);
+  plexway::solve(Serial{}, domain, others, options, workspace, again);
+  CAPTURE(name(options));
+  CHECK(again.label.size() == (others.size() > 1 ? again.size() : 0));
+  plexway::solve(Serial{}, domain, here, options, workspace, again);
+  CHECK(again.label.size() == (here.size() > 1 ? again.size() : 0));
+  CHECK(first.distance == again.distance);
+  CHECK(first.statistics.expansions == again.statistics.expansions);
+  CHECK(first.statistics.updates == again.statistics.updates);
+  CHECK(first.distance == plexway::solve(Serial{}, domain, here, options).distance);
 }
 
 /// Relative errors where the exact distance is neither 0 nor infinite. below <= 0 is the most

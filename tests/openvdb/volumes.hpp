@@ -4,10 +4,8 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <random>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,6 +20,7 @@ namespace volume_testing {
 
 using io_testing::bytes_of;
 using io_testing::Folder;
+using io_testing::message_of;
 using plexway::Index;
 using plexway::openvdb::level_set_of;
 using plexway::openvdb::LevelSet;
@@ -127,16 +126,6 @@ std::vector<std::array<Index, 3>> boundary(const Solid& solid) {
     if (n == 1) faces.push_back(face);
   }
   return faces;
-}
-
-template <class Failure, class Act>
-std::string message_of(Act act) {
-  try {
-    act();
-  } catch (const Failure& error) {
-    return error.what();
-  }
-  return "no complaint";
 }
 
 }  // namespace volume_testing

@@ -5,8 +5,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-#include <mutex>
-#include <random>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -15,6 +13,7 @@
 #include "executors/scenes.hpp"
 
 namespace plexway::testing::all_pairs_test {
+using namespace detail;
 
 namespace {
 

@@ -1,6 +1,5 @@
 #include <catch2/catch.hpp>
 #include <numeric>
-#include <optional>
 #include <set>
 
 #include <plexway/surface/intrinsic_delaunay.hpp>

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include <plexway/paths/path_field.hpp>
 #include <plexway/solve.hpp>
@@ -14,6 +13,7 @@
 #include "complexes/test_meshes.hpp"
 
 namespace plexway::testing {
+using namespace detail;
 
 inline double apart(const Position& p, const Position& q) {
   return std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);

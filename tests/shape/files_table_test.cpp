@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <plexway/any_domain.hpp>
@@ -19,7 +17,7 @@
 #include <plexway/shape/support.hpp>
 
 #include "folder.hpp"
-#include "shape/convert.hpp"
+#include "shape/files.hpp"
 #include "shape/kinds.hpp"
 
 namespace files_table_test {

@@ -13,6 +13,7 @@
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 #include <plexway/shape/support.hpp>
+#include <plexway/shape/warnings.hpp>
 
 #include "complexes/common/kept_archive.hpp"
 #include "complexes/test_meshes.hpp"
@@ -21,6 +22,7 @@
 #include "folder.hpp"
 
 namespace plexway::kept_test {
+using namespace detail;
 
 namespace {
 
@@ -154,6 +156,28 @@ TEST_CASE("kept solids open with the same bits") {
   SECTION("with reflex edges") { check_kept(shape(meshes::walled(4)), inside); }
   SECTION("that touch in an edge") { check_kept(shape(meshes::edge_touch(2)), inside); }
   SECTION("that touch in a vertex") { check_kept(shape(meshes::vertex_touch(2)), inside); }
+}
+
+TEST_CASE("a kept solid by lengths alone knows its notches") {
+  const meshes::Solid s = meshes::walled(4);
+  const AnyDomain built(AnyShape::solid(s.positions.size(), s.tets, s.lengths()));
+  const ::testing::Folder folder;
+  built.keep(folder.at("kept.plexway"));
+  const AnyDomain opened = AnyDomain::read(folder.at("kept.plexway"));
+  PropagateOptions options;
+  options.accuracy = Accuracy::fast();
+  const PointSource source = PointSource::at(0);
+  const AnyField before = built.solve(Serial{}, source, options);
+  const AnyField after = opened.solve(Serial{}, source, options);
+  CHECK(after.doubles() == before.doubles());
+  const auto said = [&](const AnyDomain& domain, const AnyField& field) {
+    std::vector<std::string> texts;
+    for (const Warning& warning : warnings(domain, field, source, options))
+      texts.push_back(warning.text);
+    return texts;
+  };
+  CHECK_FALSE(said(built, before).empty());
+  CHECK(said(opened, after) == said(built, before));
 }
 
 TEST_CASE("kept wireframes and graphs open with the same bits") {

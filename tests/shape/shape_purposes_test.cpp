@@ -8,7 +8,6 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <plexway/any_domain.hpp>
@@ -18,10 +17,9 @@
 #include <plexway/shape/support.hpp>
 
 #include "folder.hpp"
-#include "shape/convert.hpp"
+#include "shape/files.hpp"
 #include "shape/info/error_classes.hpp"
 #include "shape/kinds.hpp"
-#include "shape/result_files.hpp"
 
 namespace shape_purposes_test {
 

@@ -2,15 +2,19 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 #include <vector>
 
-#include "strings/chains.hpp"
+#include <plexway/solid/tet_mesh.hpp>
+
+#include "data/cell_lattice.hpp"
 #include "strings/labels.hpp"
 #include "strings/pull.hpp"
+#include "strings/solid_space.hpp"
 
-// Chains, labels and pulling taut, each by itself.
+// Pulling taut, and what vertices keep, each by itself.
 
 namespace plexway::testing::strings_parts_test {
 namespace {
@@ -22,22 +26,6 @@ constexpr double pi = std::numbers::pi;
 // A wall's upper end along z, the wall below it.
 Place wall(double x, double low, double high) {
   return {{x, 0, 0}, {0, 0, 1}, low, high, {0, 1, 0}, {0, -1, 0}, {1, 0, 0}, 2 * pi};
-}
-
-TEST_CASE("equal chains are one number") {
-  Chains chains;
-  chains.clear();
-  const Index first = chains.root(0), second = chains.root(1);
-  const Index a = chains.with(first, 7), b = chains.with(a, 9);
-  for (Index p = 0; p < 1000; ++p) chains.with(second, p);
-  CHECK(chains.root(0) == first);
-  CHECK(chains.root(1) == second);
-  CHECK(chains.with(first, 7) == a);
-  CHECK(chains.with(a, 9) == b);
-  CHECK(chains.with(second, 7) != a);
-  CHECK(chains.source(b) == 0);
-  CHECK(chains[b].place == 9);
-  CHECK(chains[b].parent == a);
 }
 
 TEST_CASE("a taut string unfolds to a straight line") {
@@ -121,45 +109,75 @@ TEST_CASE("a string across a strip of rows is as short as it can be") {
   }
 }
 
-TEST_CASE("a string presses against a crack from one side to the other") {
-  const Place end = wall(0, -1, 1);
-  const auto angle = [&](double x, double y) { return end.angle_of({x, y, 0}); };
-  CHECK(end.presses(angle(.1, -1), angle(-.1, -1)));
-  CHECK(end.presses(angle(1, -.1), angle(-1, -.1)));
-  CHECK_FALSE(end.presses(angle(1, .1), angle(-1, .1)));
-  CHECK_FALSE(end.presses(angle(.1, -1), angle(1, 0)));
-  CHECK(end.presses(angle(0, -1), angle(1, -1)));  // in its plane: on both sides
-}
-
-TEST_CASE("a vertex keeps strings from different sides") {
-  constexpr Spread spread = {.5, 0};
+TEST_CASE("a vertex keeps four strings of a source, whatever solids they come through") {
   VertexLabels at;
-  CHECK(at.take({2, 0, 0, {1, 0, 0}}, spread));
-  CHECK_FALSE(at.take({2.1, 1, 0, {1, 0, 0}}, spread));  // alike and longer
-  CHECK(at.take({2.2, 2, 0, {0, 1, 0}}, spread));
-  CHECK_FALSE(at.take({2.6, 3, 0, {0, 0, 1}}, spread));  // too long
-  CHECK(at.take({1.9, 4, 0, {1, 0, 0}}, spread));        // in the place of the first
-  CHECK(at.best().chain == 4);
-  CHECK_FALSE(at.knows(0));
-  CHECK(at.knows(2));
-  CHECK(at.take({1, 5, 0, {0, 0, 1}}, spread));  // all others are too long now
-  CHECK_FALSE(at.knows(2));
-}
-
-TEST_CASE("a vertex keeps the sources that may be the nearest beside it") {
-  constexpr Spread spread = {.5, 1};
-  const auto label = [](Index source, double side) {  // ten away, and so far aside
-    const double length = std::hypot(10, side);
-    return strings::Label{length, source, source, {10 / length, side / length, 0}, length};
+  const auto take = [&](double distance, Index source, unsigned media) {
+    return at.take({distance, 8 * source + media, source, {1, 0, 0}, 0, 1u << media},
+                   {.behind = .5, .reach = 1, .cosine = .99});
   };
+  for (unsigned n = 0; n < 4; ++n) CHECK(take(2 + n / 8., 0, n));
+  CHECK_FALSE(take(2.5, 0, 4));
+  CHECK(take(2.0625, 0, 5));  // in the place of the longest
+  CHECK(at.labels.size() == 4);
+  CHECK(at.labels.back().distance == 2.25);
+  CHECK(take(2.5, 1, 0));
+  CHECK(at.labels.size() == 5);
+}
+
+TEST_CASE("a vertex takes no string twice") {
   VertexLabels at;
-  CHECK(at.take(label(0, 0), spread));
-  CHECK(at.take(label(1, 1), spread));  // halfway to it is within reach
-  CHECK(at.take(label(2, -2), spread));
-  CHECK_FALSE(at.take(label(3, 4), spread));
-  CHECK(at.labels.size() == 3);
-  CHECK(at.take({9, 4, 4, {1, 0, 0}, 9}, spread));  // an edge before all others
+  const strings::Spread spread = {.behind = .5, .reach = 1, .cosine = .99};
+  // One that ends in a place at the vertex comes from no direction.
+  strings::Label label = {1, 7, 0, {0, 0, 0}, 0, 1};
+  CHECK(at.take(label, spread));
+  CHECK_FALSE(at.take(label, spread));
+  label.distance = .75;
+  CHECK(at.take(label, spread));
   CHECK(at.labels.size() == 1);
+}
+
+TEST_CASE("a vertex keeps two strings of a source, and eight where edges are sharp") {
+  for (const Index most : {strings::Spread::few, strings::Spread::many}) {
+    VertexLabels at;
+    const auto take = [&](double distance, Index chain) {
+      const double angle = chain;
+      return at.take({distance, chain, 0, {std::cos(angle), std::sin(angle), 0}, 0, 1},
+                     {.behind = .5, .reach = 1, .cosine = .99, .own = most});
+    };
+    for (Index n = 0; n < most; ++n) CHECK(take(2 + n / 64., n));
+    CHECK_FALSE(take(2.25, most));
+    CHECK(take(1.75, most + 1));  // in the place of the longest
+    CHECK(at.labels.size() == most);
+    CHECK(at.best().distance == 1.75);
+  }
+}
+
+TEST_CASE("vertices are sharp at a corner of more than a half turn, and beside it") {
+  // An L of cells, long arms: the corner is at (1, 1).
+  std::vector<std::array<double, 3>> places;
+  std::vector<std::array<Index, 4>> tets;
+  std::map<std::array<int, 3>, Index> numbers;
+  const auto number = [&](const std::array<int, 3>& at) {
+    const auto [found, is_new] = numbers.try_emplace(at, static_cast<Index>(places.size()));
+    if (is_new) places.push_back({double(at[0]), double(at[1]), double(at[2])});
+    return found->second;
+  };
+  for (int n = 0; n < 6; ++n) {
+    samples::add_cell({n, 0, 0}, number, tets);
+    if (n > 0) samples::add_cell({0, n, 0}, number, tets);
+  }
+  const TetMesh<float> mesh(places, tets);
+  const SolidSpace space(mesh);
+  const auto is_sharp = [&](const std::array<int, 3>& at) {
+    return space.is_sharp(mesh.inside_vertex(numbers.at(at)));
+  };
+  for (const int z : {0, 1}) {
+    CHECK(is_sharp({1, 1, z}));
+    CHECK(is_sharp({2, 1, z}));
+    CHECK(is_sharp({1, 0, z}));
+    CHECK_FALSE(is_sharp({3, 1, z}));
+    CHECK_FALSE(is_sharp({0, 5, z}));
+  }
 }
 
 }  // namespace

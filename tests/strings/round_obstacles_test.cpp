@@ -1,8 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <map>
+#include <random>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -11,10 +16,13 @@
 #include <plexway/solve.hpp>
 #include <plexway/surface.hpp>
 
+#include "strings/solid_strings.hpp"
+
 // Between points of a convex body the shortest path outside of it runs on its surface: what exact
 // windows find there is the truth for strings around it.
 
 namespace plexway::testing::round_obstacles_test {
+using namespace detail;
 namespace {
 
 using Position = std::array<double, 3>;
@@ -121,6 +129,53 @@ TEST_CASE("around round bodies strings are as long as exact windows on them, and
       CHECK(wired.mean < 5e-4);
       CHECK(wired.high < 1e-2);
     }
+  }
+}
+
+// Who makes offers, and in which order, does not matter.
+TEST_CASE("strings by threads in any order: the same bits, paths too") {
+  const Shell shell(Body(4, 1.3));
+  const TetMesh<double> mesh(shell.positions, shell.tets);
+  const auto space = space_of(mesh);
+  const strings::Source source = source_at(*space, 0, 0);
+  const auto solve = [&](strings::Solver& solver, const strings::Threads& threads,
+                         double radius = std::numeric_limits<double>::infinity()) {
+    strings::Limits limits;
+    limits.threads = threads;
+    limits.radius = radius;
+    CHECK(solver.solve({&source, 1}, limits));
+  };
+  std::size_t shared = 0;
+  std::mt19937 random(1);
+  const auto backwards = [&](std::size_t count, const strings::Threads::Work& work) {
+    shared += count;
+    for (std::size_t i = count; i-- > 0;) work(i, random() % 3);
+  };
+  const auto by_two = [](std::size_t count, const strings::Threads::Work& work) {
+    std::atomic<std::size_t> next{0};
+    const auto take = [&](std::size_t thread) {
+      for (std::size_t i = 0; (i = next++) < count;) work(i, thread);
+    };
+    std::thread other(take, 1);
+    take(0);
+    other.join();
+  };
+  strings::Solver one(*space), other(*space), two(*space), near(*space);
+  solve(one, {});
+  const double radius = one.distance(static_cast<Index>(mesh.vertex_count() / 2));
+  solve(near, {}, radius);
+  solve(other, {3, backwards});
+  solve(two, {2, by_two});
+  CHECK(shared > mesh.vertex_count() / 2);
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    CAPTURE(v);
+    REQUIRE(one.distance(v) == other.distance(v));
+    REQUIRE(one.distance(v) == two.distance(v));
+    CHECK(near.distance(v) >= one.distance(v) * (1 - 1e-9));
+    if (one.distance(v) <= radius) CHECK(near.distance(v) <= one.distance(v) * (1 + 1e-9));
+    const auto path = one.path(v).points, again = other.path(v).points;
+    REQUIRE(path.size() == again.size());
+    for (std::size_t k = 0; k < path.size(); ++k) CHECK(norm(path[k] - again[k]) == 0);
   }
 }
 

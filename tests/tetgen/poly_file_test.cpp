@@ -145,14 +145,14 @@ TEST_CASE("bad poly files are refused with file, line and cause") {
   };
   for (const Bad& bad : files) {
     const auto file = folder.write("bad.poly", bad.bytes);
-    CHECK(complaint([&] { (void)read_poly(file); }) == file.string() + bad.complaint);
+    CHECK(message_of([&] { (void)read_poly(file); }) == file.string() + bad.complaint);
   }
   const auto missing = folder.path() / "missing.poly";
-  CHECK(complaint([&] { (void)read_poly(missing); }) == missing.string() + ": no such file");
+  CHECK(message_of([&] { (void)read_poly(missing); }) == missing.string() + ": no such file");
   const auto no_node = folder.write("lonely.poly", "0 3\n");
-  CHECK(complaint([&] { (void)read_poly(no_node); }).find("lonely.node: no such file") !=
+  CHECK(message_of([&] { (void)read_poly(no_node); }).find("lonely.node: no such file") !=
         std::string::npos);
-  CHECK(complaint([&] { (void)read_poly("solid.xyz"); }) ==
+  CHECK(message_of([&] { (void)read_poly("solid.xyz"); }) ==
         "solid.xyz: unknown extension '.xyz'; known are .poly .smesh");
 }
 
@@ -160,14 +160,14 @@ TEST_CASE("complexes that make no sense are refused") {
   using plexway::tetgen::PiecewiseLinearComplex;
   using plexway::tetgen::tetrahedralize;
   PiecewiseLinearComplex complex;
-  CHECK(complaint([&] { (void)tetrahedralize(complex); }) ==
+  CHECK(message_of([&] { (void)tetrahedralize(complex); }) ==
         "no facets: there is no solid to fill");
   complex.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   complex.facets = {{.polygons = {{0, 1, 3}}, .holes = {}}};
-  CHECK(complaint([&] { (void)tetrahedralize(complex); }) ==
+  CHECK(message_of([&] { (void)tetrahedralize(complex); }) ==
         "facet 0 names vertex 3, but there are 3");
   complex.facets = {{.polygons = {{0, 1, 2}}, .holes = {}}};
-  CHECK(complaint([&] { (void)tetrahedralize(complex); }) != "no complaint");
+  CHECK_FALSE(message_of([&] { (void)tetrahedralize(complex); }).empty());
 }
 
 }  // namespace poly_file_test

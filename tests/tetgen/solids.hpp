@@ -2,17 +2,17 @@
 
 #include <array>
 #include <cmath>
-#include <span>
-#include <string>
 #include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/tetgen/tetrahedralize.hpp>
 
 #include "data/shapes.hpp"
+#include "message_of.hpp"
 
 namespace tetgen_testing {
 
+using plexway::testing::message_of;
 using plexway::tetgen::Solid;
 using samples::Index;
 using samples::Point;
@@ -65,17 +65,6 @@ inline Shape together(Shape first, const Shape& second, Point move, double scale
 inline Solid fill(const Shape& surface, const plexway::tetgen::TetrahedralizeOptions& options = {},
                   const std::vector<Point>& holes = {}) {
   return plexway::tetgen::tetrahedralize(surface.points, surface.faces, holes, options);
-}
-
-/// The message of the InputError that `call` must throw.
-template <class Call>
-std::string complaint(Call call) {
-  try {
-    call();
-  } catch (const plexway::InputError& error) {
-    return error.what();
-  }
-  return "no complaint";
 }
 
 }  // namespace tetgen_testing

@@ -1,10 +1,8 @@
 // What may be meant in two ways, and slips of a newcomer: said with what to write.
 
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -244,7 +242,7 @@ TEST_CASE("what was probably meant is asked") {
   check_refused({"distance", torus, "-s", "vertex:0", "-o", "d.cvs"}, 2, "did you mean '.csv'?");
   check_refused({"info", "mesh.olf"}, 3, "did you mean '.off'?");
   CHECK(run_tool({"distance", torus, "--quux"}).err.find("did you mean") == std::string::npos);
-  check_refused({"info", "part.3mf"}, 3, "save the surface as .stl, .ply or .glb");
+  check_refused({"info", "part.dae"}, 3, "save the surface as .stl, .ply or .glb");
 }
 
 TEST_CASE("points in a line make a picture of their edges, and a note") {

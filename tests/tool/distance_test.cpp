@@ -1,10 +1,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include <plexway/io/tets.hpp>
+
+#include "complexes/test_solids.hpp"
 #include "io/io_testing.hpp"
 #include "tool/tool.hpp"
 
@@ -262,6 +264,21 @@ TEST_CASE("auto takes several threads for what is large") {
   };
   for (const char* accuracy : {"fast", "accurate"})
     CHECK(executor(accuracy) == (has_openmp() ? "openmp" : "serial"));
+}
+
+TEST_CASE("auto takes several threads for solids unless they are solved fast") {
+  const io_testing::Folder folder;
+  const plexway::testing::Solid cube = plexway::testing::solid_cube(16);  // 24,576 tetrahedra
+  const std::string file = folder.at("cube.msh").string();
+  plexway::io::write_tets(file, {cube.positions, cube.tets});
+  const auto executor = [&](const char* option, const char* value) {
+    return ran({"distance", file, "-s", "vertex:0", "--executor", "auto", "--threads", "2", option,
+                value, "--json"})
+        .json()["executor"];
+  };
+  CHECK(executor("--accuracy", "accurate") == (has_openmp() ? "openmp" : "serial"));
+  CHECK(executor("--accuracy", "fast") == "serial");
+  CHECK(executor("--visibility", "centroid") == "serial");  // which strings do not know
 }
 
 TEST_CASE("executors and options that do not go together are usage errors") {

@@ -6,7 +6,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -60,6 +59,11 @@ TEST_CASE("a face with a corner twice is left out and counted, and numbers stay"
   CHECK(info.json()["slender_share"] == 0);
   CHECK(info.json()["edge_length"]["min"] == 1);
   check_refused({"distance", file, "-s", "vertex:0", "--strict"}, 3,
+                "has a corner twice and is left out, which --strict refuses");
+  // As one of several files too.
+  const Words several = {"distance", file, sample("torus.obj"), "--weld", "0", "-s", "vertex:0"};
+  CHECK(run_tool(several).code == 0);
+  check_refused(joined(several, {"--strict"}), 3,
                 "has a corner twice and is left out, which --strict refuses");
   const std::string none = folder.write("none.obj", square + "f 2 2 3\nf 1 1 1\n");
   check_refused({"distance", none, "-s", "vertex:0"}, 3, "all 2 triangles have a corner twice");
@@ -310,8 +314,6 @@ TEST_CASE("two names of one output are noticed before anything is done") {
   CHECK_FALSE(fs::exists(folder.at("same.ply")));
 }
 
-namespace {}  // namespace
-
 TEST_CASE("with CSV on standard output the summary goes to standard error") {
   const auto run =
       ran({"distance", sample("torus.obj"), "--source", "vertex:0", "--out", "-", "--json"});
@@ -375,7 +377,7 @@ TEST_CASE("out must have a known extension and not be the input") {
   const Folder folder;
   check_refused(
       {"distance", sample("knot.ply"), "-s", "vertex:0", "-o", (folder.path() / "d.xyz").string()},
-      2, ".csv .npy .ply .vtk .vtu");
+      2, ".csv .npy .gii .ply .vtk .vtu");
   const std::string ply = (folder.path() / "mesh.ply").string();
   std::filesystem::copy_file(sample("knot.ply"), ply);
   CHECK(run_tool({"distance", ply, "-s", "vertex:0", "-o", ply}).code == 2);

@@ -6,7 +6,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -126,12 +125,21 @@ std::vector<double> in_gltf(const std::string& bytes) {
   return found;
 }
 
+std::vector<double> in_gii(const std::string& bytes) {
+  REQUIRE(bytes.find("DataType=\"NIFTI_TYPE_FLOAT32\"") != bytes.npos);
+  REQUIRE(bytes.find("Encoding=\"Base64Binary\" Endian=\"LittleEndian\"") != bytes.npos);
+  const std::size_t from = after(bytes, "<Data>");
+  std::string data;
+  REQUIRE(plexway::io::decode_base64(bytes.substr(from, bytes.find('<', from) - from), data));
+  return numbers_at<float>(data, 0, data.size() / 4, 4);
+}
+
 std::vector<double> in_csv(const std::string& bytes) { return csv_column(bytes, "distance"); }
 
 using Reader = std::vector<double> (*)(const std::string&);
 const std::map<std::string, Reader> readers = {
-    {".csv", in_csv}, {".npy", in_npy},  {".ply", in_ply},  {".vtu", in_vtu},
-    {".vtk", in_vtk}, {".glb", in_gltf}, {".gltf", in_gltf}};
+    {".csv", in_csv}, {".npy", in_npy}, {".gii", in_gii},  {".ply", in_ply},
+    {".vtu", in_vtu}, {".vtk", in_vtk}, {".glb", in_gltf}, {".gltf", in_gltf}};
 
 struct Case {
   std::string kind;

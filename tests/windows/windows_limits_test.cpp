@@ -9,73 +9,9 @@
 
 #include "data/long_strips.hpp"
 #include "data/shapes.hpp"
-#include "labels/awkward_surfaces.hpp"
 #include "windows/windows_solving.hpp"
 
 namespace plexway::testing::windows_limits_test {
-
-namespace {
-
-/// Finite exactly where `fast` reaches, never NaN or below 0, 0 at the source; and it ends.
-template <class Real>
-void check_reach(const Surface& s, Index source) {
-  const auto mesh = s.mesh<Real>();
-  const std::vector<double> fast = solve(mesh, PointSource::at(source));
-  for (const Accuracy accuracy : window_accuracies)
-    for (const Schedule schedule : schedules) {
-      PropagateOptions options;
-      options.schedule = schedule;
-      const auto d = solve_windows(mesh, {PointSource::at(source)}, accuracy, options);
-      bool right = true;
-      for (std::size_t v = 0; v < d.size(); ++v)
-        right &= !std::isnan(d[v]) && d[v] >= 0 && std::isfinite(d[v]) == std::isfinite(fast[v]);
-      CAPTURE(name(accuracy), static_cast<int>(schedule), source, s.faces.size());
-      CHECK(right);
-      CHECK(d[source] == 0);
-    }
-}
-
-}  // namespace
-
-TEMPLATE_TEST_CASE("windows reach what the default reaches: soups of triangles", "", float,
-                   double) {
-  each_soup(20, 40, check_reach<TestType>);
-}
-
-TEMPLATE_TEST_CASE("windows reach what the default reaches: crumpled surfaces", "", float, double) {
-  each_crumpled(8, 10, check_reach<TestType>);
-}
-
-TEMPLATE_TEST_CASE("windows reach what the default reaches: nothing with an area", "", float,
-                   double) {
-  each_flat(check_reach<TestType>);
-}
-
-TEMPLATE_TEST_CASE("windows end where lengths are those of no triangle", "", float, double) {
-  std::mt19937 random(12);
-  const Surface s = grid(9, 9);
-  for (int n = 0; n < 40; ++n) {
-    std::vector<std::array<double, 3>> lengths = lengths_of(s);
-    std::map<std::pair<Index, Index>, double> length;
-    for (std::size_t f = 0; f < s.faces.size(); ++f)
-      for (std::size_t i = 0; i < 3; ++i)
-        lengths[f][i] = length
-                            .try_emplace(std::minmax(s.faces[f][i], s.faces[f][(i + 1) % 3]),
-                                         uniform(random) < .1 ? 0 : uniform(random))
-                            .first->second;
-    const TriangleMesh<TestType> mesh(s.positions.size(), s.faces, lengths);
-    for (const Accuracy accuracy : window_accuracies)
-      for (const Schedule schedule : schedules) {
-        PropagateOptions options;
-        options.schedule = schedule;
-        bool fine = true;
-        for (const double d : solve_windows(mesh, {PointSource::at(50)}, accuracy, options))
-          fine &= d >= 0 && d < 1e3;
-        CAPTURE(n, name(accuracy), static_cast<int>(schedule));
-        CHECK(fine);
-      }
-  }
-}
 
 TEMPLATE_TEST_CASE("windows: radius, labels, offsets, budget, progress", "", float, double) {
   const Surface s = grid(20, 20);

@@ -11,6 +11,7 @@
 #include "windows/window_solver.hpp"
 
 namespace plexway::testing {
+using namespace detail;
 
 inline constexpr Accuracy window_accuracies[] = {Accuracy::exact(), Accuracy::accurate()};
 

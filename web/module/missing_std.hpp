@@ -10,9 +10,21 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <string>
 #include <system_error>
 #include <type_traits>
+
+#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 14000
+// clang-format off
+_LIBCPP_BEGIN_NAMESPACE_STD
+/// Of what has data() and size() but is no container of its elements.
+template <class Rows>
+requires(!requires { typename Rows::value_type; }) span(const Rows&)
+    -> span<remove_pointer_t<decltype(declval<const Rows&>().data())>>;
+_LIBCPP_END_NAMESPACE_STD
+// clang-format on
+#endif
 
 namespace std {
 

@@ -11,6 +11,7 @@
 #include "complexes/common/point3.hpp"
 
 namespace plexway::web {
+using namespace detail;
 namespace {
 
 using Vector = Point3;

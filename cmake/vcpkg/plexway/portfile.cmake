@@ -1,6 +1,6 @@
 # The library alone (core, io, apps) by vcpkg, out of this checkout:
 #   vcpkg install plexway --overlay-ports=cmake/vcpkg
-# What takes more libraries (TetGen, PCL, OpenVDB, ...) is left out; so is the tool.
+# What takes more libraries (TetGen, PCL, OpenVDB, LZ4, Draco, ...) is left out; so is the tool.
 get_filename_component(SOURCE_PATH "${CURRENT_PORT_DIR}/../../.." ABSOLUTE)
 
 set(without "")

@@ -8,7 +8,7 @@
 
 #include "complexes/common/building_blocks.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr std::uint32_t patience = 4096, growth = 16;
@@ -112,4 +112,4 @@ std::vector<SurfaceChord> LostEdges::sorted(std::vector<SurfaceChord> lost) {
   return lost;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

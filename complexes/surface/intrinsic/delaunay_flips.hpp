@@ -9,7 +9,7 @@
 #include "complexes/common/building_blocks.hpp"
 #include "complexes/surface/intrinsic/intrinsic_triangulation.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Flips edges until all are Delaunay up to a tolerance, a sine.
 ///
@@ -106,4 +106,4 @@ class LostEdges {
   Unfilled<Edge> edges_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

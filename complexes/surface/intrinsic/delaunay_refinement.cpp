@@ -7,7 +7,7 @@
 
 #include "complexes/surface/intrinsic/delaunay_flips.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 // Where the way to a circumcentre ends: in a triangle, or at a boundary edge in between.
@@ -181,4 +181,4 @@ void refine(IntrinsicTriangulation& triangulation, DelaunayFlips& flips, const R
   Refiner(triangulation, flips, wanted).run();
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

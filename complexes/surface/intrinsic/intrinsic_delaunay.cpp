@@ -1,6 +1,5 @@
 #include <plexway/surface/intrinsic_delaunay.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -9,6 +8,7 @@
 #include "complexes/common/building_blocks.hpp"
 #include "complexes/common/kept_parts.hpp"
 #include "complexes/common/simplex_order.hpp"
+#include "complexes/common/vertices_outside.hpp"
 #include "complexes/surface/face_layout.hpp"
 #include "complexes/surface/intrinsic/delaunay_flips.hpp"
 #include "complexes/surface/intrinsic/intrinsic_triangulation.hpp"
@@ -16,6 +16,8 @@
 #include "complexes/surface/shape_blocks.hpp"
 
 namespace plexway {
+using namespace detail;
+
 namespace {
 
 // An edge is Delaunay up to this, as a sine.
@@ -125,8 +127,7 @@ struct IntrinsicDelaunay::State {
 
   template <class Real>
   void take_from_input(const TriangleMesh<Real>& input) {
-    std::vector<Index> outer(input.vertex_count());
-    for (Index v = 0; v < outer.size(); ++v) outer[input.inside_vertex(v)] = v;
+    const std::vector<Index> outer = vertices_outside(input);
     const auto corners = [&](Index slot) {
       const TriangleRecord<Real>& t = input.triangles()[slot];
       return std::pair(std::array{outer[t.corner[0]], outer[t.corner[1]], outer[t.corner[2]]},
@@ -253,6 +254,8 @@ void IntrinsicDelaunay::release_triangles() {
   state_->released = true;
 }
 
+namespace detail {
+
 template <>
 struct KeptGap<SlotPoint> {
   static constexpr std::size_t begin = sizeof(Index), end = offsetof(SlotPoint, at);
@@ -290,6 +293,8 @@ IntrinsicDelaunay KeptParts::open_delaunay(KeptIn& in, std::size_t triangles,
   in.require(!bad && s.triangulation.history().sound(s.faces));
   return delaunay;
 }
+
+}  // namespace detail
 
 const DelaunaySummary& IntrinsicDelaunay::summary() const { return state_->summary; }
 
@@ -394,8 +399,7 @@ Refinement refinement_for(Retriangulation wanted) {
 }
 
 template <class Real>
-TriangulatedSurface<Real> triangulate(std::span<const std::array<double, 3>> positions,
-                                      std::span<const std::array<Index, 3>> faces,
+TriangulatedSurface<Real> triangulate(const GivenPoints& positions, const GivenSimplices<3>& faces,
                                       std::optional<Retriangulation> wanted, int threads) {
   SurfaceHints hints;
   hints.threads = threads;
@@ -419,11 +423,9 @@ TriangulatedSurface<Real> triangulate(std::span<const std::array<double, 3>> pos
   if (!same && summary.inserted_vertices == 0) delaunay.state_->share_numbers(mesh);
   return {std::move(mesh), std::move(delaunay), done};
 }
-template TriangulatedSurface<float> triangulate(std::span<const std::array<double, 3>>,
-                                                std::span<const std::array<Index, 3>>,
+template TriangulatedSurface<float> triangulate(const GivenPoints&, const GivenSimplices<3>&,
                                                 std::optional<Retriangulation>, int);
-template TriangulatedSurface<double> triangulate(std::span<const std::array<double, 3>>,
-                                                 std::span<const std::array<Index, 3>>,
+template TriangulatedSurface<double> triangulate(const GivenPoints&, const GivenSimplices<3>&,
                                                  std::optional<Retriangulation>, int);
 
 }  // namespace plexway

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "complexes/common/vertices_outside.hpp"
 #include "complexes/surface/face_layout.hpp"
 #include "complexes/surface/shape_blocks.hpp"
 #include "complexes/surface/triangle_shape.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr std::size_t next(std::size_t i) { return edge_after(i); }
@@ -64,9 +65,7 @@ IntrinsicTriangulation::IntrinsicTriangulation(const TriangleMesh<Real>& mesh)
       triangles_(mesh.face_count()),
       flips_(mesh.face_count(), 0),
       history_(mesh.face_count()) {
-  std::vector<Index> outer(vertices_);
-  for (std::size_t v = 0; v < vertices_; ++v)
-    outer[mesh.vertices_inside()[v]] = static_cast<Index>(v);
+  const std::vector<Index> outer = vertices_outside(mesh);
   const Index sentinel = static_cast<Index>(mesh.face_count());
   turned_.assign(sentinel, 0);
   for (Index f = 0; f < sentinel; ++f) {
@@ -385,4 +384,4 @@ void IntrinsicTriangulation::split_border(Halfedge e) {
   right.across[2] = halfedge(f, 1);
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

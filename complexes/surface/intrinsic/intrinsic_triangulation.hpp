@@ -15,7 +15,7 @@
 #include "complexes/surface/intrinsic/patch_history.hpp"
 #include "complexes/surface/intrinsic/planar.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A triangle that may change, in double. Edge i runs from corner i to the next.
 ///
@@ -104,4 +104,4 @@ class IntrinsicTriangulation {
   std::vector<SlotPoint> inserted_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

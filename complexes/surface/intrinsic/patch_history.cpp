@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 using PatchCorners = std::array<std::uint8_t, 3>;
@@ -215,4 +214,4 @@ void PatchHistory::back(const Piece& line, std::vector<Piece>& pieces) const {
   }
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <plexway/common/detail/rows.hpp>
@@ -11,7 +10,7 @@
 
 #include "complexes/surface/intrinsic/planar.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A point of a triangle in a slot.
 struct SlotPoint {
@@ -125,4 +124,4 @@ class PatchHistory {
   Rows<Index> last_;  // the last patch of each slot
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

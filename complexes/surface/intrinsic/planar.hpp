@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// An angle by its cosine and sine.
 struct Turn {
@@ -78,4 +78,4 @@ struct Planar {
   return b;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

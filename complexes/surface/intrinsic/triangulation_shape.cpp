@@ -9,6 +9,9 @@
 #include "complexes/surface/shape_blocks.hpp"
 
 namespace plexway {
+
+namespace detail {
+
 namespace {
 
 // corner(f, i): cosine and sine of the angle there; across(f, i): packed as Across.
@@ -97,6 +100,8 @@ template TriangulationShape measure_triangulation<float>(const FaceLayout&, cons
                                                          int);
 template TriangulationShape measure_triangulation<double>(const FaceLayout&, const TriangleShapes&,
                                                           int);
+
+}  // namespace detail
 
 template <class Real>
 TriangulationShape measure_triangulation(const TriangleMesh<Real>& mesh) {

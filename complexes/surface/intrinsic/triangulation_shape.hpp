@@ -2,7 +2,7 @@
 
 #include <plexway/surface/intrinsic_delaunay.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 class FaceLayout;
 class TriangleShapes;
@@ -12,4 +12,4 @@ template <class Real>
 TriangulationShape measure_triangulation(const FaceLayout& layout, const TriangleShapes& shapes,
                                          int threads);
 
-}  // namespace plexway
+}  // namespace plexway::detail

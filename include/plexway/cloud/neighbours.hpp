@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include <plexway/common/ids.hpp>
+#include <plexway/common/rows_of.hpp>
 
 namespace plexway {
 
@@ -35,7 +35,6 @@ void check(const Neighbours& neighbours);
 
 /// The same, and every row nearest first, the lower number first of two equally near. Throws
 /// InputError if there is not one row a point.
-[[nodiscard]] Neighbours symmetric_closure(const Neighbours& neighbours,
-                                           std::span<const std::array<double, 3>> points);
+[[nodiscard]] Neighbours symmetric_closure(const Neighbours& neighbours, const GivenPoints& points);
 
 }  // namespace plexway

@@ -15,6 +15,10 @@
 
 namespace plexway {
 
+namespace detail {
+struct KeptParts;
+}  // namespace detail
+
 /// How long an edge of a cloud is.
 enum class EdgeLengths {
   /// As in space on clean clouds. On noisy ones, as far as they are: without its height along the
@@ -99,16 +103,8 @@ class PointCloud {
   /// for no points, and if there is not one row or normal a point; UsageError for options out of
   /// range; Cancelled as progress says. The result does not depend on the number of threads. Cost:
   /// 2 to 4 us a point on one thread, of which half is done in parallel.
-  PointCloud(std::span<const std::array<double, 3>> points, const Neighbours& neighbours,
+  PointCloud(const GivenPoints& points, const Neighbours& neighbours,
              const CloudOptions& options = {});
-
-  /// From points in an array of any kind (rows_of).
-  template <detail::AnyRows Points>
-  requires(!PlainRows<Points, double, 3>)
-      PointCloud(const Points& points, const Neighbours& neighbours,
-                 const CloudOptions& options = {})
-      : PointCloud(std::span<const std::array<double, 3>>(rows_of<double, 3>(points)), neighbours,
-                   options) {}
 
   /// Does not compile, and says why.
   template <detail::AnyRows Points>
@@ -146,7 +142,7 @@ class PointCloud {
   [[nodiscard]] std::span<const std::array<double, 3>> more_places() const { return more_; }
 
  private:
-  friend struct KeptParts;
+  friend struct detail::KeptParts;
   explicit PointCloud(TriangleMesh<Real>&& surface) : surface_(std::move(surface)) {}
 
   CloudSummary summary_;

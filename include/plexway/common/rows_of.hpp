@@ -3,6 +3,8 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <initializer_list>
+#include <memory>
 #include <ranges>
 #include <span>
 #include <string>
@@ -172,13 +174,73 @@ template <RowsOfAnyWidth R>
   return rows;
 }
 
-/// Is it what a constructor takes without a copy?
-template <class R, class T, std::size_t N>
-concept PlainRows = std::convertible_to<const R&, std::span<const std::array<T, N>>>;
+/// Rows as a caller gives them: of std::array<double, 3>, say, or of numbers alone. What is such an
+/// array and stays is referred to, and must outlive this; what would be gone after the line, and
+/// what stands in braces, is kept; anything else (RowsOfNumbers) is copied. Spans of what is
+/// kept end with the last copy.
+template <class T>
+class Given {
+ public:
+  /// None.
+  Given() = default;
+  /// What stands in braces, kept.
+  Given(std::initializer_list<T> rows) { keep(std::vector<T>(rows)); }
+  /// An array of any kind. Throws as rows_of.
+  template <detail::AnyRows R>
+  requires(!std::same_as<std::remove_cvref_t<R>, Given>) Given(R&& given) {
+    using Kind = std::remove_cvref_t<R>;
+    if constexpr (std::convertible_to<const Kind&, std::span<const T>>) {
+      if constexpr (std::is_lvalue_reference_v<R> || std::ranges::borrowed_range<R>)
+        rows_ = given;
+      else
+        keep(Kind(std::forward<R>(given)));
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      static_assert(RangeOfNumbers<Kind>, "numbers are expected in a row: a std::vector<double>");
+      if constexpr (RangeOfNumbers<Kind>)
+        keep(std::vector<T>(std::ranges::begin(given), std::ranges::end(given)));
+    } else {
+      keep(rows_of<typename T::value_type, std::tuple_size_v<T>>(given));
+    }
+  }
+  ///@{
+  /// Copies share what is kept; a move leaves none.
+  ~Given() = default;
+  Given(const Given&) = default;
+  Given(Given&& other) noexcept
+      : rows_(std::exchange(other.rows_, {})), keeper_(std::move(other.keeper_)) {}
+  Given& operator=(Given other) noexcept {
+    std::swap(rows_, other.rows_);
+    std::swap(keeper_, other.keeper_);
+    return *this;
+  }
+  ///@}
 
-/// Points and simplices of N corners of which at least one is to be copied.
-template <class Points, class Simplices, std::size_t N>
-concept OtherRows = detail::AnyRows<Points> && detail::AnyRows<Simplices> &&
-    !(PlainRows<Points, double, 3> && PlainRows<Simplices, Index, N>);
+  ///@{
+  /// As those of a std::span.
+  [[nodiscard]] const T* data() const { return rows_.data(); }
+  [[nodiscard]] const T* begin() const { return rows_.data(); }
+  [[nodiscard]] const T* end() const { return rows_.data() + rows_.size(); }
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  [[nodiscard]] bool empty() const { return rows_.empty(); }
+  [[nodiscard]] const T& operator[](std::size_t i) const { return rows_[i]; }
+  ///@}
+
+ private:
+  template <class Rows>
+  void keep(Rows rows) {
+    const auto kept = std::make_shared<const Rows>(std::move(rows));
+    rows_ = *kept;
+    keeper_ = kept;
+  }
+
+  std::span<const T> rows_;
+  std::shared_ptr<const void> keeper_;
+};
+
+/// Points in space.
+using GivenPoints = Given<std::array<double, 3>>;
+/// Simplices of N vertices each.
+template <std::size_t N>
+using GivenSimplices = Given<std::array<Index, N>>;
 
 }  // namespace plexway

@@ -153,7 +153,7 @@ namespace plexway {
     "a domain of intrinsic lengths can be solved, but has no directions and cannot be drawn: "     \
     "give "                                                                                        \
     "its "                                                                                         \
-    "vertices positions in space, or take its distances as .csv or .npy")                          \
+    "vertices positions in space, or take its distances as .csv, .npy or .gii")                    \
   X(pieces_positions,                                                                              \
     "files are joined where their vertices lie in space: give the vertices positions")             \
   X(metrics_lengths,                                                                               \

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <plexway/common/ids.hpp>
+#include <plexway/common/rows_of.hpp>
 
 namespace plexway {
 
@@ -39,9 +40,8 @@ struct FineField {
 ///
 /// Throws UsageError for counts that do not fit, a face of a vertex that is not there, or a
 /// tolerance that is not > 0. Cost: `at` once an edge, and once a new vertex.
-[[nodiscard]] FineField fine_field(std::span<const std::array<double, 3>> positions,
-                                   std::span<const std::array<Index, 3>> faces,
-                                   std::span<const double> distance, const DistanceInside& at,
+[[nodiscard]] FineField fine_field(const GivenPoints& positions, const GivenSimplices<3>& faces,
+                                   const Given<double>& distance, const DistanceInside& at,
                                    const FineOptions& options);
 
 }  // namespace plexway

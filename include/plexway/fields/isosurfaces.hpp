@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include <plexway/common/ids.hpp>
+#include <plexway/common/rows_of.hpp>
 
 namespace plexway {
 
@@ -24,9 +24,7 @@ struct Isosurfaces {
 /// Shapes: n positions and distances, m tetrahedra of vertices < n. Throws UsageError for other
 /// counts, a tetrahedron of a vertex that is not there, or a value that is not finite. Cost: linear
 /// in m for each value.
-[[nodiscard]] Isosurfaces isosurfaces(std::span<const std::array<double, 3>> positions,
-                                      std::span<const std::array<Index, 4>> tets,
-                                      std::span<const double> distance,
-                                      std::span<const double> values);
+[[nodiscard]] Isosurfaces isosurfaces(const GivenPoints& positions, const GivenSimplices<4>& tets,
+                                      const Given<double>& distance, const Given<double>& values);
 
 }  // namespace plexway

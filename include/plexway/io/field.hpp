@@ -17,8 +17,9 @@ namespace plexway::io {
 /// `error` is not empty, how far off each may be (DistanceField::error) as a column `error` (glTF:
 /// `_ERROR`; not in .npy).
 ///
-/// The extension (any case) picks the format: .csv, .npy (distances only), .ply, .vtk, .vtu, .glb
-/// and .gltf. Unreached vertices carry +inf in each of them, but -1 in glTF, which knows no
+/// The extension (any case) picks the format: .csv, .npy (distances only), .gii (a .func.gii or
+/// .shape.gii, to be shown on a surface of another file), .ply, .vtk, .vtu, .glb and .gltf.
+/// Unreached vertices carry +inf in each of them, but -1 in glTF, which knows no
 /// infinity. The file appears whole or not at all: it is written beside its place and renamed at
 /// the end.
 ///
@@ -32,8 +33,8 @@ void write_field(const std::filesystem::path& file, const Triangles& surface,
 void write_field(const std::filesystem::path& file, const Tets& solid,
                  std::span<const double> distance, std::span<const std::int32_t> label = {});
 
-/// The same for a wireframe. If its vertices have no positions, only .csv (without x, y and z) and
-/// .npy can hold it; UsageError otherwise.
+/// The same for a wireframe. If its vertices have no positions, only .csv (without x, y and z),
+/// .npy and .gii can hold it; UsageError otherwise.
 void write_field(const std::filesystem::path& file, const Edges& wireframe,
                  std::span<const double> distance, std::span<const std::int32_t> label = {});
 

@@ -10,6 +10,7 @@
 
 #include <plexway/common/detail/on_demand.hpp>
 #include <plexway/common/ids.hpp>
+#include <plexway/common/rows_of.hpp>
 #include <plexway/domain/concept.hpp>
 #include <plexway/solid/tet_mesh.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
@@ -17,18 +18,15 @@
 
 namespace plexway {
 
+namespace detail {
 template <class Real>
 struct JoinedPieces;
+}  // namespace detail
 
-/// Which intersections of simplices of two welded pieces become hinges.
+/// How two pieces are welded.
 struct WeldOptions {
   /// Vertices of the two pieces are one if they are this close, in the domain's unit, >= 0.
   double tolerance = 0;
-  /// The maximal intersections always are hinges: faces that both pieces have; edges that both
-  /// have and that lie in no such face, or from where a surface goes on alone; vertices in no such
-  /// edge or face. Lower ones by request:
-  bool all_edges = false;     ///< every edge that both pieces have
-  bool all_vertices = false;  ///< every welded vertex
 };
 
 /// The counts of a mixed domain.
@@ -37,8 +35,9 @@ struct MixedSummary {
   /// Of all pieces; a welded vertex counts in each of them.
   std::size_t pieces = 0, vertices = 0, simplices = 0;
   ///@}
-  std::size_t welded_vertices = 0;         ///< pairs
-  std::array<std::size_t, 3> hinges = {};  ///< between pieces, by dimension
+  std::size_t welded_vertices = 0;  ///< pairs
+  /// What two pieces share, by dimension: faces, edges in no such face, vertices in no such edge.
+  std::array<std::size_t, 3> hinges = {};
 };
 
 /// Complexes of different dimension in one domain, welded at vertices.
@@ -76,11 +75,11 @@ class MixedComplex {
     [[nodiscard]] Index simplex(Index of_piece) const;
   };
 
-  /// Adds a piece. `positions`, one a vertex, say where it lies: they are needed to weld by
-  /// nearness, and where all pieces have some, paths through solids are exact. Throws
-  /// UsageError for positions of another count, a solid without coordinates, or more than 2^32 - 2
-  /// vertices or simplices in all.
-  Piece add(Complex complex, std::span<const std::array<double, 3>> positions = {});
+  /// Adds a piece. `positions`, one a vertex and copied, say where it lies: they are needed to weld
+  /// by nearness, and where all pieces have some, paths through solids are exact. Throws UsageError
+  /// for positions of another count, a solid without coordinates, or more than 2^32 - 2 vertices or
+  /// simplices in all.
+  Piece add(Complex complex, const GivenPoints& positions = {});
 
   /// Makes nearby vertices of two pieces one. Returns how many pairs; with none, nothing changes.
   /// Throws UsageError for a piece that is not of this domain, twice the same, without positions,
@@ -88,8 +87,7 @@ class MixedComplex {
   std::size_t weld(const Piece& a, const Piece& b, const WeldOptions& options = {});
 
   /// The same for given pairs (vertex of a, vertex of b), in the pieces' own numbers.
-  std::size_t weld(const Piece& a, const Piece& b, std::span<const std::array<Index, 2>> pairs,
-                   const WeldOptions& options = {});
+  std::size_t weld(const Piece& a, const Piece& b, std::span<const std::array<Index, 2>> pairs);
 
   /// Of all pieces; a welded vertex counts in each of them. Fields have one distance each.
   [[nodiscard]] std::size_t vertex_count() const { return summary_.vertices; }
@@ -115,10 +113,10 @@ class MixedComplex {
   /// This domain with surfaces that share edges joined to one, and solids that share faces and
   /// measure them alike, where that makes no corner; null where there are none. Made when first
   /// asked for, after the last change; may be called by several threads.
-  [[nodiscard]] std::shared_ptr<const JoinedPieces<Real>> joined() const;
+  [[nodiscard]] std::shared_ptr<const detail::JoinedPieces<Real>> joined() const;
 
   /// What strings know of it (src/strings); of it as it was when that was first wanted.
-  [[nodiscard]] const OnDemand& space() const { return space_; }
+  [[nodiscard]] const detail::OnDemand& space() const { return space_; }
 
   /// Where the vertices of a piece lie, as it was added; may be empty.
   [[nodiscard]] std::span<const std::array<double, 3>> positions(const Piece& piece) const {
@@ -132,31 +130,24 @@ class MixedComplex {
     /// Its corners that are the hinge's vertices; as many as the hinge has.
     std::array<std::uint8_t, 3> corner;
   };
-  /// A hinge of dimension 1 or 2 between two pieces: the simplices at it on either side, from
-  /// begin[side] to end[side] in `members`.
+  /// A hinge of dimension 1 or 2 between two pieces.
   struct Hinge {
     /// 1 or 2: an edge or a triangle.
     std::uint8_t dimension;
     /// The pieces on either side.
     Index piece[2];
-    ///@{
-    /// A range of members() for each side.
-    Index begin[2], end[2];
-    ///@}
+    /// A simplex of each at it.
+    Member member[2];
   };
-  /// Two vertices that are one; a hinge of dimension 0 if `hinge`.
+  /// Two vertices that are one.
   struct Weld {
     ///@{
     /// The two pieces, and the vertex inside each.
     Index piece[2], vertex[2];
     ///@}
-    /// Is it a hinge of dimension 0? If not, a larger hinge has both.
-    bool hinge;
   };
-  /// Of dimension 1 and 2.
+  /// Triangles that two pieces have, and edges in no such triangle.
   [[nodiscard]] std::span<const Hinge> hinges() const { return hinges_; }
-  /// Of all these hinges, hinge by hinge.
-  [[nodiscard]] std::span<const Member> members() const { return members_; }
   /// All pairs of vertices that are one.
   [[nodiscard]] std::span<const Weld> welds() const { return welds_; }
   /// The same pairs in the domain's numbers.
@@ -164,26 +155,19 @@ class MixedComplex {
   ///@}
 
  private:
-  friend struct JoinedPieces<Real>;
-  void check(const Piece& a, const Piece& b, const WeldOptions& options) const;
+  friend struct detail::JoinedPieces<Real>;
+  void check(const Piece& a, const Piece& b) const;
 
   MixedSummary summary_;
   std::vector<Piece> pieces_;
   std::vector<Complex> complexes_;
   std::vector<std::vector<std::array<double, 3>>> positions_;
   std::vector<Hinge> hinges_;
-  std::vector<Member> members_;
   std::vector<Weld> welds_;
   std::vector<std::array<Index, 2>> outer_welds_;
-  /// The calls of `weld`, in order.
-  struct Request {
-    Index piece[2];
-    WeldOptions options;
-  };
-  std::vector<Request> requests_;
-  mutable std::shared_ptr<const JoinedPieces<Real>> joined_;
+  mutable std::shared_ptr<const detail::JoinedPieces<Real>> joined_;
   mutable bool is_joined_ = false;  // or found to need none
-  OnDemand space_;
+  detail::OnDemand space_;
 };
 
 extern template class MixedComplex<float>;

@@ -9,6 +9,7 @@
 #include <plexway/solve/options.hpp>
 #include <plexway/solve/workspace.hpp>
 #include <plexway/source/point_source.hpp>
+#include <plexway/source/source_list.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
 namespace plexway {
@@ -45,19 +46,19 @@ class BoundedSearch {
  public:
   /// Refers to the surface. Throws UsageError for one with refracting edges. Cost: linear.
   explicit BoundedSearch(const TriangleMesh<Real>& mesh);
+  /// The surface would be gone after this line.
+  explicit BoundedSearch(const TriangleMesh<Real>&& mesh) = delete;
 
-  /// Vertices within options.radius of the nearest of `sources`. The result stays until the next
-  /// search; with `simplices`, triangles are listed too. Throws as `solve`, and UsageError
+  /// Vertices within options.radius of the nearest of `sources`, all points. The result stays until
+  /// the next search; with `simplices`, triangles are listed too. Throws as `solve`, and UsageError
   /// for another visibility than the default, and for an accuracy by windows. Cost: about 0.2 us a
   /// triangle that is reached.
-  const Surroundings<Real>& find(Serial, std::span<const PointSource> sources,
-                                 const PropagateOptions& options, bool simplices = false);
-  /// From one source, with the options that are the default but for the radius.
-  const Surroundings<Real>& find(Serial executor, const PointSource& source, double radius,
+  const Surroundings<Real>& find(Serial, const SourceList& sources, const PropagateOptions& options,
+                                 bool simplices = false);
+  /// With the options that are the default but for the radius.
+  const Surroundings<Real>& find(Serial executor, const SourceList& sources, double radius,
                                  bool simplices = false) {
-    PropagateOptions options;
-    options.radius = radius;
-    return find(executor, std::span<const PointSource>(&source, 1), options, simplices);
+    return find(executor, sources, PropagateOptions{.radius = radius}, simplices);
   }
 
   /// Bytes held, without those of the surface.

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include <plexway/cloud/point_cloud.hpp>
+#include <plexway/common/rows_of.hpp>
 #include <plexway/paths/path_field.hpp>
 #include <plexway/solve.hpp>
+#include <plexway/source/source_list.hpp>
 
 namespace plexway {
 
@@ -16,13 +18,14 @@ namespace plexway {
 ///
 /// @code
 ///   PathField field(cloud, points);
-///   field.solve(Serial{}, PointSource::at(0));
+///   field.solve(Serial{}, 0);
 ///   Path path = field.trace(17);
 ///
 /// @endcode
 /// Sources and targets are points. Those of a path in between are points of the sheet's triangles:
 /// their simplices are numbers of `cloud.surface()`, whose corners `corners` has. The cloud and
-/// its points are referred to and must outlive it.
+/// its points are referred to and must outlive it, unless these would be gone after the line
+/// (Given).
 template <class Real>
 class PathField<PointCloud<Real>> {
  public:
@@ -31,26 +34,23 @@ class PathField<PointCloud<Real>> {
   /// together by a single edge.
   ///
   /// Lengths are in space, in double, and where noise was taken from them as the cloud has them.
-  explicit PathField(const PointCloud<Real>& cloud,
-                     std::span<const std::array<double, 3>> points = {});
+  explicit PathField(const PointCloud<Real>& cloud, GivenPoints points = {});
+  /// The cloud would be gone after this line.
+  explicit PathField(const PointCloud<Real>&& cloud, GivenPoints points = {}) = delete;
 
-  /// The distance of every point from the nearest of `sources`. Throws and costs as `solve`.
+  /// The distance of every point from the nearest of `sources`, points only. Throws and costs as
+  /// `solve`.
   template <class Executor>
-  const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
+  const DistanceField<Real>& solve(Executor executor, const SourceList& sources,
                                    const PropagateOptions& options = {}) {
+    const std::span<const PointSource> points = points_of(Purpose::paths, sources);
     solved_ = false;
     if constexpr (std::is_same_v<WorkspaceOf<Executor, PointCloud<Real>>, Workspace<Real>>)
-      plexway::solve(executor, *cloud_, sources, options, workspace_, field_);
+      plexway::solve(executor, *cloud_, points, options, workspace_, field_);
     else
-      field_ = plexway::solve(executor, *cloud_, sources, options);
-    took(sources, options.visibility);
+      field_ = plexway::solve(executor, *cloud_, points, options);
+    took(points, options.visibility);
     return field_;
-  }
-  /// From one source.
-  template <class Executor>
-  const DistanceField<Real>& solve(Executor executor, const PointSource& source,
-                                   const PropagateOptions& options = {}) {
-    return solve(executor, std::span<const PointSource>(&source, 1), options);
   }
 
   /// The field of the last solve.
@@ -75,9 +75,8 @@ class PathField<PointCloud<Real>> {
   void took(std::span<const PointSource> sources, Visibility visibility);
 
   const PointCloud<Real>* cloud_;
-  std::span<const std::array<double, 3>> places_;  // of the sheet's vertices, or none
-  std::vector<std::array<double, 3>> own_places_;  // which these are where it has more than points
-  bool in_space_ = false;                          // are lengths those between places?
+  GivenPoints places_;     // of the sheet's vertices, or none
+  bool in_space_ = false;  // are lengths those between places?
   std::vector<Index> outer_;
   Workspace<Real> workspace_;
   DistanceField<Real> field_, sheet_;  // at the points, and at the sheet's vertices if more

@@ -1,65 +1,65 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
+#include <plexway/common/rows_of.hpp>
 #include <plexway/mixed/mixed_complex.hpp>
 #include <plexway/paths/path_field.hpp>
 #include <plexway/solve.hpp>
 #include <plexway/solve/workspace.hpp>
+#include <plexway/source/source_list.hpp>
 
 namespace plexway {
 
+namespace detail {
 class Cells;
 class MediaPaths;
+}  // namespace detail
 
 /// A distance field on a mixed domain that traces paths: through pieces of any dimension and
 /// over their welds, refracted where two pieces measure a hinge differently.
 ///
 /// @code
 ///   PathField field(mixed, positions);
-///   field.solve(Serial{}, PointSource::at(0));
+///   field.solve(Serial{}, 0);
 ///   Path path = field.trace(17);
 ///
 /// @endcode
-/// Simplices of a path are the domain's numbers, of all pieces. The domain and the positions are
-/// referred to and must outlive it; the domain must not change.
+/// Simplices of a path are the domain's numbers, of all pieces. The domain is referred
+/// to, must outlive it and must not change; positions too, unless they would be gone after the line
+/// (Given).
 template <class Real>
 class PathField<MixedComplex<Real>> {
  public:
   /// `positions`, one a vertex of the domain, are where paths are drawn; lengths are those of the
   /// pieces. Throws UsageError for another count. Cost: linear; where paths are searched for 36
   /// bytes a tetrahedron.
-  explicit PathField(const MixedComplex<Real>& domain,
-                     std::span<const std::array<double, 3>> positions = {});
+  explicit PathField(const MixedComplex<Real>& domain, GivenPoints positions = {});
+  /// The domain would be gone after this line.
+  explicit PathField(const MixedComplex<Real>&& domain, GivenPoints positions = {}) = delete;
   /// Moved; what is left may only be destroyed or assigned to.
   PathField(PathField&&) noexcept;
   /// Likewise.
   PathField& operator=(PathField&&) noexcept;
   ~PathField();
 
-  /// The distance of every vertex from the nearest of `sources`. Throws and costs as `solve`.
+  /// The distance of every vertex from the nearest of `sources`, points only. Throws and costs
+  /// as `solve`.
   template <class Executor>
-  const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
+  const DistanceField<Real>& solve(Executor executor, const SourceList& sources,
                                    const PropagateOptions& options = {}) {
-    plexway::solve(executor, *domain_, sources, options, workspace_, field_);
-    took(sources);
+    const std::span<const PointSource> points = points_of(Purpose::paths, sources);
+    plexway::solve(executor, *domain_, points, options, workspace_, field_);
+    took(points);
     return field_;
-  }
-  /// From one source.
-  template <class Executor>
-  const DistanceField<Real>& solve(Executor executor, const PointSource& source,
-                                   const PropagateOptions& options = {}) {
-    return solve(executor, std::span<const PointSource>(&source, 1), options);
   }
 
   /// Distances from the same sources found elsewhere, one a vertex of the domain. Where strings
   /// solve the domain they are solved anew, for paths alone.
-  void adopt(DistanceField<Real> found, std::span<const PointSource> sources);
+  void adopt(DistanceField<Real> found, const SourceList& sources);
 
   /// The field of the last solve.
   [[nodiscard]] const DistanceField<Real>& distances() const { return field_; }
@@ -95,13 +95,13 @@ class PathField<MixedComplex<Real>> {
   [[nodiscard]] PointSource checked(const PointSource& point) const;
 
   const MixedComplex<Real>* domain_;
-  std::span<const std::array<double, 3>> positions_;
-  std::unique_ptr<const Cells> cells_;  // where strings do not go
-  std::vector<double> distance_;        // by the numbers of cells_
+  GivenPoints positions_;
+  std::unique_ptr<const detail::Cells> cells_;  // where strings do not go
+  std::vector<double> distance_;                // by the numbers of cells_
   Workspace<Real> workspace_;
   DistanceField<Real> field_;
   std::vector<PointSource> sources_;
-  std::unique_ptr<const MediaPaths> paths_;  // by strings
+  std::unique_ptr<const detail::MediaPaths> paths_;  // by strings
   bool solved_ = false;
 };
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <span>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
+#include <plexway/common/rows_of.hpp>
 #include <plexway/fields/read_out.hpp>
 #include <plexway/paths/path.hpp>
 #include <plexway/solid/tet_mesh.hpp>
@@ -16,27 +16,30 @@
 #include <plexway/solve/options.hpp>
 #include <plexway/solve/workspace.hpp>
 #include <plexway/source/point_source.hpp>
+#include <plexway/source/source_list.hpp>
 #include <plexway/surface/intrinsic_delaunay.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 #include <plexway/wireframe/wireframe.hpp>
 
 namespace plexway {
 
+namespace detail {
 class Cells;
 struct CellField;
 template <class Real>
 struct Solved;
+}  // namespace detail
 
 /// A distance field that traces paths: what a solve learned, and the domain it holds on.
 ///
 /// @code
 ///   PathField field(mesh, positions);
-///   field.solve(Serial{}, sources);
-///   Path path = field.trace(PointSource::at(17));
+///   field.solve(Serial{}, 0);
+///   Path path = field.trace(17);
 ///
 /// @endcode
-/// Domain: TriangleMesh, TetMesh or Wireframe. The domain and the positions are referred to and
-/// must outlive it.
+/// Domain: TriangleMesh, TetMesh or Wireframe. The domain is referred to and must outlive it, and
+/// so are positions, unless they would be gone after the line (Given).
 template <class Domain>
 class PathField {
   static_assert(support(Purpose::paths, Domain::kind),
@@ -58,22 +61,31 @@ class PathField<Domain<Real>> {
   /// UsageError for another count. Cost: linear; 4 bytes a vertex, and a tetrahedron, and 40 an
   /// edge of a wireframe; 50 a triangle of a surface with refracting edges, 60 a tetrahedron
   /// without coordinates.
-  explicit PathField(const Domain<Real>& domain,
-                     std::span<const std::array<double, 3>> positions = {});
+  explicit PathField(const Domain<Real>& domain, GivenPoints positions = {});
+  /// The domain would be gone after this line.
+  explicit PathField(const Domain<Real>&& domain, GivenPoints positions = {}) = delete;
 
   /// On the intrinsic Delaunay triangulation of a surface, `domain`, which is delaunay.mesh(): all
   /// points, positions and paths are those of the input. A path is found where it was solved, and
   /// laid on the input's triangles; its length is that there. Refers to all of them.
   PathField(const Domain<Real>& domain, const IntrinsicDelaunay& delaunay,
             const Domain<Real>& input,
-            std::span<const std::array<double, 3>> positions = {}) requires(Domain<Real>::kind ==
-                                                                            DomainKind::surface);
+            GivenPoints positions = {}) requires(Domain<Real>::kind == DomainKind::surface);
+  ///@{
+  /// One of them would be gone after this line.
+  PathField(const Domain<Real>&&, const IntrinsicDelaunay&, const Domain<Real>&,
+            GivenPoints = {}) = delete;
+  PathField(const Domain<Real>&, const IntrinsicDelaunay&&, const Domain<Real>&,
+            GivenPoints = {}) = delete;
+  PathField(const Domain<Real>&, const IntrinsicDelaunay&, const Domain<Real>&&,
+            GivenPoints = {}) = delete;
+  ///@}
 
-  /// The distance of every vertex from the nearest of `sources`. Throws and costs as
-  /// plexway::solve. Paths can be traced after an executor that leaves no labels as well, by the
-  /// vertices' distances alone; in solids in space strings are then solved for them.
+  /// The distance of every vertex from the nearest of `sources`, points and vertices only. Throws
+  /// and costs as plexway::solve. Paths can be traced after an executor that leaves no labels as
+  /// well, by the vertices' distances alone; in solids in space strings are then solved for them.
   template <class Executor>
-  const DistanceField<Real>& solve(Executor executor, std::span<const PointSource> sources,
+  const DistanceField<Real>& solve(Executor executor, const SourceList& sources,
                                    const PropagateOptions& options = {}) {
     const std::span<const PointSource> there = take(sources);
     constexpr bool keeps = std::is_same_v<WorkspaceOf<Executor, Domain<Real>>, Workspace<Real>>;
@@ -86,12 +98,6 @@ class PathField<Domain<Real>> {
     const bool fast = field_.accuracy == Accuracy::fast();
     took(options, !keeps ? Kept::nothing : fast ? Kept::labels : Kept::windows);
     return field_;
-  }
-  /// From one source.
-  template <class Executor>
-  const DistanceField<Real>& solve(Executor executor, const PointSource& source,
-                                   const PropagateOptions& options = {}) {
-    return solve(executor, std::span<const PointSource>(&source, 1), options);
   }
 
   /// The field of the last solve. Vertices that a refinement put in come last.
@@ -162,12 +168,12 @@ class PathField<Domain<Real>> {
 
  private:
   PathField(const Domain<Real>& domain, const IntrinsicDelaunay* delaunay,
-            const Domain<Real>& given, std::span<const std::array<double, 3>> positions);
+            const Domain<Real>& given, GivenPoints positions);
   [[nodiscard]] Support support_of(Purpose purpose) const;
   /// The field as the workspace has it.
   enum class Kept { nothing, labels, windows };  // in solids strings
   /// Where they are in the domain.
-  std::span<const PointSource> take(std::span<const PointSource> sources);
+  std::span<const PointSource> take(const SourceList& sources);
   void took(const PropagateOptions& options, Kept kept);
   [[nodiscard]] PointSource checked(const PointSource& point) const;
   [[nodiscard]] std::span<const PointSource> given_sources() const {
@@ -176,13 +182,13 @@ class PathField<Domain<Real>> {
   [[nodiscard]] std::span<const Index> given_outer() const {
     return delaunay_ ? given_outer_ : outer_;
   }
-  [[nodiscard]] Solved<Real> solved() const;
-  [[nodiscard]] CellField cell_field() const;
+  [[nodiscard]] detail::Solved<Real> solved() const;
+  [[nodiscard]] detail::CellField cell_field() const;
 
   const Domain<Real>* domain_;         // that fields are solved on
   const Domain<Real>* given_;          // that points are in: mostly the same
   const IntrinsicDelaunay* delaunay_;  // from the one to the other
-  std::span<const std::array<double, 3>> positions_;
+  GivenPoints positions_;
   std::vector<Index> outer_;            // from vertices inside to the caller's
   std::vector<Index> given_outer_;      // the same of `given_`, where that is another
   std::vector<Index> outer_simplices_;  // of tetrahedra inside
@@ -194,7 +200,7 @@ class PathField<Domain<Real>> {
   bool solved_ = false;
   Kept kept_ = Kept::nothing;
   // Where paths are refracted, in solids of intrinsic lengths, and along wires.
-  std::shared_ptr<const Cells> cells_;
+  std::shared_ptr<const detail::Cells> cells_;
   std::vector<double> cell_distance_;
 };
 
@@ -207,7 +213,7 @@ PathField(const Domain<Real>&, const Positions&) -> PathField<Domain<Real>>;
 /// Likewise.
 template <class Real>
 PathField(const TriangleMesh<Real>&, const IntrinsicDelaunay&, const TriangleMesh<Real>&,
-          std::span<const std::array<double, 3>>) -> PathField<TriangleMesh<Real>>;
+          const GivenPoints&) -> PathField<TriangleMesh<Real>>;
 
 extern template class PathField<TriangleMesh<float>>;
 extern template class PathField<TriangleMesh<double>>;

@@ -1,17 +1,16 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <span>
 #include <vector>
 
+#include <plexway/common/rows_of.hpp>
 #include <plexway/paths/path.hpp>
 #include <plexway/solve.hpp>
 #include <plexway/solve/distance_field.hpp>
 #include <plexway/solve/options.hpp>
-#include <plexway/source/point_source.hpp>
+#include <plexway/source/source_list.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
 namespace plexway {
@@ -63,27 +62,25 @@ class PathSearch {
   explicit PathSearch(const TriangleMesh<Real>& mesh);
   /// A* by the straight line in space, times `scale`. Throws UsageError, naming the triangle and
   /// the greatest scale that would do, where a path on the surface may be shorter than that:
-  /// surfaces with another metric than that of their positions. Cost: linear, once. Refers to both.
-  PathSearch(const TriangleMesh<Real>& mesh, std::span<const std::array<double, 3>> positions,
-             double scale = 1);
+  /// surfaces with another metric than that of their positions. Cost: linear, once. Refers to the
+  /// surface, and to positions unless they would be gone after the line (Given).
+  PathSearch(const TriangleMesh<Real>& mesh, GivenPoints positions, double scale = 1);
+  ///@{
+  /// The surface would be gone after this line.
+  explicit PathSearch(const TriangleMesh<Real>&& mesh) = delete;
+  PathSearch(const TriangleMesh<Real>&& mesh, GivenPoints positions, double scale = 1) = delete;
+  ///@}
   ~PathSearch();
   /// Moves what it holds; what is left may be assigned to or destroyed, no more.
   PathSearch(PathSearch&&) noexcept;
   /// Likewise.
   PathSearch& operator=(PathSearch&&) noexcept;
 
-  /// Paths from the targets back to the nearest of `sources`. Throws UsageError for no target or
-  /// one that is not in the surface, else as `solve`. Cost: about 0.3 us an expansion, and what
-  /// the paths cost.
-  [[nodiscard]] SearchResult find(Serial, std::span<const PointSource> sources,
-                                  std::span<const PointSource> targets,
+  /// Paths from the targets back to the nearest of `sources`, all of them points. Throws UsageError
+  /// for no target or one that is not in the surface, else as `solve`. Cost: about 0.3 us an
+  /// expansion, and what the paths cost.
+  [[nodiscard]] SearchResult find(Serial, const SourceList& sources, const SourceList& targets,
                                   const SearchOptions& options = {});
-  /// From one source to one target.
-  [[nodiscard]] SearchResult find(Serial executor, const PointSource& source,
-                                  const PointSource& target, const SearchOptions& options = {}) {
-    return find(executor, std::span<const PointSource>(&source, 1),
-                std::span<const PointSource>(&target, 1), options);
-  }
 
   /// Bytes held, without those of the surface and the positions.
   [[nodiscard]] std::size_t bytes() const;

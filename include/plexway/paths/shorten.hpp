@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
 #include <span>
 
+#include <plexway/common/rows_of.hpp>
 #include <plexway/paths/path.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
@@ -20,6 +20,6 @@ namespace plexway {
 /// each vertex that it is pulled over.
 template <class Real>
 [[nodiscard]] Path shortened(const TriangleMesh<Real>& mesh, std::span<const PathPoint> path,
-                             std::span<const std::array<double, 3>> positions = {});
+                             const GivenPoints& positions = {});
 
 }  // namespace plexway

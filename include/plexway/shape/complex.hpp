@@ -35,7 +35,20 @@ decltype(auto) with_complex(const AnyDomain& domain, const Use& use) {
       complex_of(domain));
 }
 
-/// The same where points are chosen (Purpose::samples). Throws UsageError where none are.
+/// The same for clouds alone; else nothing is called and the result is empty.
+template <class Use>
+auto with_cloud(const AnyDomain& domain, const Use& use) {
+  using Result = decltype(use(std::declval<const PointCloud<float>&>()));
+  if (domain.cloud() == nullptr) return Result();
+  return with_complex(domain, [&]<class C>(const C& complex) {
+    if constexpr (C::kind == DomainKind::cloud)
+      return use(complex);
+    else
+      return Result();
+  });
+}
+
+/// As with_complex, where points are chosen (Purpose::samples). Throws UsageError where none are.
 template <class Use>
 decltype(auto) with_sampled(const AnyDomain& domain, const Use& use) {
   using Result = decltype(use(std::declval<const TriangleMesh<float>&>()));

@@ -18,22 +18,22 @@ class TriangleMesh;
 template <class Real>
 class TetMesh;
 
+namespace detail {
+
 /// What is known of a complex of four dimensions where it is flat, for the library's own use.
 template <int N>
 struct FlatDomain;
 
-namespace detail {
-
 template <int N>
-struct FlatForm {
+struct FlatFormOf {
   using type = FlatDomain<N>;
 };
 template <>
-struct FlatForm<2> {
+struct FlatFormOf<2> {
   using type = TriangleMesh<double>;
 };
 template <>
-struct FlatForm<3> {
+struct FlatFormOf<3> {
   using type = TetMesh<double>;
 };
 
@@ -42,7 +42,7 @@ struct FlatForm<3> {
 /// What a flat complex is solved as: the surface or the solid of the same vertices and simplices,
 /// in the caller's order; in four dimensions points and the faces on which paths bend.
 template <int N>
-using FlatForm = typename detail::FlatForm<N>::type;
+using FlatForm = typename detail::FlatFormOf<N>::type;
 
 /// The counts of a complex, made while it is built.
 struct SimplicialSummary {
@@ -98,9 +98,9 @@ class SimplicialComplex {
   /// N.
   static constexpr int dimension = N;
   /// In what order a simplex has its edges.
-  using Layout = SimplexLayout<N>;
+  using Layout = detail::SimplexLayout<N>;
   /// The record of a simplex that propagation reads.
-  using Record = SimplexRecord<Real, N>;
+  using Record = detail::SimplexRecord<Real, N>;
   /// Vertices of a simplex.
   using Corners = std::array<Index, N + 1>;
   /// Of a simplex, one an edge: (0,1) (0,2) (1,2) (0,3) ...

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include <plexway/common/detail/identity.hpp>
 #include <plexway/common/detail/on_demand.hpp>
@@ -19,7 +17,10 @@
 
 namespace plexway {
 
+namespace detail {
+struct KeptParts;
 struct TetLayout;
+}  // namespace detail
 
 /// The counts of a solid, made while it is built.
 struct SolidSummary {
@@ -55,7 +56,7 @@ struct SolidSummary {
 /// any number of threads may read it.
 ///
 /// Vertices and tetrahedra have the caller's numbers in this interface. Inside they are reordered
-/// for locality. Memory: 68 bytes a tetrahedron and 20 a vertex in float.
+/// for locality. Memory: 56 bytes a tetrahedron and 32 a vertex; by lengths alone 80 (double: 104).
 template <class Real>
 class TetMesh {
   static_assert(is_number_of_domains<Real>, "distances are float or double");
@@ -74,23 +75,15 @@ class TetMesh {
   /// tetrahedron, more than two tetrahedra on a face, two on the same side of one, or more than
   /// 2^30 - 2 tetrahedra. Built by `threads` (0: as many as the machine has), which the result does
   /// not depend on. Cost: about 0.3 us a tetrahedron on one.
-  TetMesh(std::span<const std::array<double, 3>> positions,
-          std::span<const std::array<Index, 4>> tets, int threads = 0);
-
-  /// From arrays of any kind (rows_of), as TriangleMesh.
-  template <class Points, class Tets>
-  requires(OtherRows<Points, Tets, 4>)
-      TetMesh(const Points& positions, const Tets& tets, int threads = 0)
-      : TetMesh(std::span<const std::array<double, 3>>(rows_of<double, 3>(positions)),
-                std::span<const std::array<Index, 4>>(rows_of<Index, 4>(tets)), threads) {}
+  TetMesh(const GivenPoints& positions, const GivenSimplices<4>& tets, int threads = 0);
 
   /// From intrinsic lengths: lengths[t] are those of the edges of tetrahedron t (0,1) (0,2) (1,2)
   /// (0,3) (1,3) (2,3), as metric::simplex_edges names them, and must be the same wherever an edge
   /// occurs (up to rounding; not checked). Lengths that no tetrahedron has are replaced by those of
   /// the nearest flat one along that order (SolidSummary::degenerate_tets counts). Throws as above,
   /// and for a length that is negative or not finite.
-  TetMesh(std::size_t vertices, std::span<const std::array<Index, 4>> tets,
-          std::span<const std::array<double, 6>> lengths, int threads = 0);
+  TetMesh(std::size_t vertices, const GivenSimplices<4>& tets,
+          const Given<std::array<double, 6>>& lengths, int threads = 0);
 
   /// n, referenced or not: fields have one distance each.
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
@@ -126,19 +119,15 @@ class TetMesh {
   static constexpr Index turned = Index{1} << 31;
 
   /// The records, and one sentinel behind them that stands for "no tetrahedron".
-  [[nodiscard]] std::span<const TetRecord<Real>> tets() const { return tets_; }
-  /// Positions in units of the mean edge about the middle of the solid; empty if not embedded.
-  [[nodiscard]] std::span<const Vector3<Real>> points() const { return points_; }
+  [[nodiscard]] std::span<const detail::TetRecord> tets() const { return tets_; }
+  /// Positions in units of the mean edge about the middle of the solid; empty if not embedded. In
+  /// double whatever Real is: what is flat, and what bends a path, is told by their digits.
+  [[nodiscard]] std::span<const detail::Vector3<double>> points() const { return points_; }
   /// Squared lengths of a tetrahedron's edges; empty if embedded.
   [[nodiscard]] std::span<const std::array<Real, 6>> squared_lengths() const { return lengths_; }
-  /// The edges at which paths may bend, an entry a reflex fan.
-  [[nodiscard]] std::span<const ReflexEdge<Real>> reflex_edges() const { return reflex_; }
-  /// Do two faces of the boundary lie on each other at an edge? Cost: the reflex edges.
-  [[nodiscard]] bool has_crack() const {
-    return std::any_of(reflex_.begin(), reflex_.end(), [](const auto& e) { return is_crack(e); });
-  }
-  /// Which of them each tetrahedron has: ReflexEntry, packed, a row a tetrahedron that has any.
-  [[nodiscard]] std::span<const Index> reflex_list() const { return reflex_list_; }
+  /// Edges of the boundary whose two faces lie on each other, so that the solid goes all around:
+  /// their ends, inside.
+  [[nodiscard]] std::span<const std::array<Index, 2>> cracks() const { return cracks_; }
   /// The number inside of each vertex, in the caller's order.
   [[nodiscard]] std::span<const Index> vertices_inside() const { return vertex_to_inside_; }
   /// The number inside of a vertex, which must be one (not checked).
@@ -162,30 +151,29 @@ class TetMesh {
   /// Of the content: a copy has the same, everything else another (Identity).
   [[nodiscard]] std::uint64_t identity() const { return identity_.value(); }
   /// What strings know of it (src/strings).
-  [[nodiscard]] const OnDemand& space() const { return space_; }
+  [[nodiscard]] const detail::OnDemand& space() const { return space_; }
   ///@}
 
  private:
-  friend struct KeptParts;
+  friend struct detail::KeptParts;
   TetMesh() = default;
 
-  void assemble(TetLayout&& layout, std::span<const std::array<double, 3>> scaled,
+  void assemble(detail::TetLayout&& layout, std::span<const std::array<double, 3>> scaled,
                 std::span<const std::array<double, 6>> lengths, int threads);
 
   SolidSummary summary_;
-  Identity identity_;
-  OnDemand space_;
-  Rows<TetRecord<Real>, Unfilled<TetRecord<Real>>> tets_;
-  Rows<Vector3<Real>> points_;
-  Rows<std::array<Real, 6>> lengths_;
-  Rows<ReflexEdge<Real>> reflex_;
-  Rows<Index> reflex_list_;
-  Rows<Index> vertex_to_inside_;
-  Rows<Index> tet_to_inside_;  // and `turned`
-  Rows<Index> corners_begin_, corners_;
-  Rows<Index> pinched_;
-  Rows<PinchedEdge> pinched_edges_;
-  Rows<Index> pinched_edge_tets_;
+  detail::Identity identity_;
+  detail::OnDemand space_;
+  detail::Rows<detail::TetRecord, detail::Unfilled<detail::TetRecord>> tets_;
+  detail::Rows<detail::Vector3<double>> points_;
+  detail::Rows<std::array<Real, 6>> lengths_;
+  detail::Rows<std::array<Index, 2>> cracks_;
+  detail::Rows<Index> vertex_to_inside_;
+  detail::Rows<Index> tet_to_inside_;  // and `turned`
+  detail::Rows<Index> corners_begin_, corners_;
+  detail::Rows<Index> pinched_;
+  detail::Rows<PinchedEdge> pinched_edges_;
+  detail::Rows<Index> pinched_edge_tets_;
 };
 
 /// Of the numbers that the points are: float, or double.

@@ -20,7 +20,7 @@ struct PropagateStatistics {
   /// there.
   std::size_t lowered_vertices = 0;
   /// Likewise vertices that came out nearer than the straight line through space by more than
-  /// 1e-4 of it. They got its length, a bound that is mostly still too short.
+  /// 1e-3 of it. They got its length, a bound that is mostly still too short.
   std::size_t raised_vertices = 0;
   /// Accuracy::usual: fields where windows became too many, so that labels did it, and the accuracy
   /// is `fast`. 0 or 1; more in sums over several fields.

@@ -5,9 +5,11 @@
 
 namespace plexway {
 
+namespace detail {
 /// What a Workspace holds, for the library's own use.
 template <class Real>
 struct WorkspaceState;
+}  // namespace detail
 
 /// All that a propagation changes: labels, marks, queues. Belongs to one domain, of any kind, and
 /// one thread at a time; grows on first use and is then reused without allocating or clearing.
@@ -30,12 +32,12 @@ class Workspace {
 
   ///@{
   /// For the library's own use.
-  [[nodiscard]] WorkspaceState<Real>& state();
-  [[nodiscard]] const WorkspaceState<Real>& state() const { return *state_; }
+  [[nodiscard]] detail::WorkspaceState<Real>& state();
+  [[nodiscard]] const detail::WorkspaceState<Real>& state() const { return *state_; }
   ///@}
 
  private:
-  std::unique_ptr<WorkspaceState<Real>> state_;  // null: moved away
+  std::unique_ptr<detail::WorkspaceState<Real>> state_;  // null: moved away
 };
 
 }  // namespace plexway

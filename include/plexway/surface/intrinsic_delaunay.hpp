@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include <plexway/common/rows_of.hpp>
 #include <plexway/source/point_source.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
@@ -89,7 +89,7 @@ struct TriangulatedSurface;
 /// does.
 template <class Real>
 [[nodiscard]] TriangulatedSurface<Real> triangulate(
-    std::span<const std::array<double, 3>> positions, std::span<const std::array<Index, 3>> faces,
+    const GivenPoints& positions, const GivenSimplices<3>& faces,
     std::optional<Retriangulation> wanted = std::nullopt, int threads = 0);
 
 /// The intrinsic Delaunay triangulation of a surface: other triangles over the same vertices in
@@ -172,10 +172,10 @@ class IntrinsicDelaunay {
 
  private:
   template <class Real>
-  friend TriangulatedSurface<Real> triangulate(std::span<const std::array<double, 3>> positions,
-                                               std::span<const std::array<Index, 3>> faces,
+  friend TriangulatedSurface<Real> triangulate(const GivenPoints& positions,
+                                               const GivenSimplices<3>& faces,
                                                std::optional<Retriangulation> wanted, int threads);
-  friend struct KeptParts;
+  friend struct detail::KeptParts;
   IntrinsicDelaunay();
 
   struct State;

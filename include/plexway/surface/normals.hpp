@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include <plexway/cloud/neighbours.hpp>
+#include <plexway/common/rows_of.hpp>
 
 namespace plexway {
 
@@ -24,11 +24,12 @@ struct TangentPlanes {
 /// Throws InputError naming the point for a coordinate that is not finite, and for lists that are
 /// no neighbour lists of these points. The result does not depend on `threads` (0: all there are).
 /// Cost: 1 us a point for 16 neighbours on one thread.
-[[nodiscard]] TangentPlanes fit_planes(std::span<const std::array<double, 3>> points,
-                                       const Neighbours& neighbours, int threads = 0);
+[[nodiscard]] TangentPlanes fit_planes(const GivenPoints& points, const Neighbours& neighbours,
+                                       int threads = 0);
 
 /// The normals alone.
-[[nodiscard]] std::vector<std::array<double, 3>> estimate_normals(
-    std::span<const std::array<double, 3>> points, const Neighbours& neighbours, int threads = 0);
+[[nodiscard]] std::vector<std::array<double, 3>> estimate_normals(const GivenPoints& points,
+                                                                  const Neighbours& neighbours,
+                                                                  int threads = 0);
 
 }  // namespace plexway

@@ -2,10 +2,10 @@
 
 #include <array>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include <plexway/cloud/neighbours.hpp>
+#include <plexway/common/rows_of.hpp>
 
 namespace plexway {
 
@@ -16,8 +16,8 @@ namespace plexway {
 /// 0.5, 0.47 for 1). Scans of real objects read 0 to 0.05; fewer than 12 neighbours read 0.
 ///
 /// Throws InputError as `smooth`. Cost: 2 us a point for 16 neighbours on one thread.
-[[nodiscard]] double noise_level(std::span<const std::array<double, 3>> points,
-                                 const Neighbours& neighbours, int threads = 0);
+[[nodiscard]] double noise_level(const GivenPoints& points, const Neighbours& neighbours,
+                                 int threads = 0);
 
 /// How much to smooth.
 struct SmoothOptions {
@@ -47,8 +47,8 @@ struct SmoothOptions {
 /// Throws InputError naming the point for a coordinate that is not finite, and for lists that are
 /// no neighbour lists of these points; Cancelled as progress says. The result does not depend on
 /// `threads`. Cost: 5 us a point and round for 16 neighbours on one thread.
-[[nodiscard]] std::vector<std::array<double, 3>> smooth(
-    std::span<const std::array<double, 3>> points, const Neighbours& neighbours,
-    const SmoothOptions& options = {});
+[[nodiscard]] std::vector<std::array<double, 3>> smooth(const GivenPoints& points,
+                                                        const Neighbours& neighbours,
+                                                        const SmoothOptions& options = {});
 
 }  // namespace plexway

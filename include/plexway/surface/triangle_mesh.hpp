@@ -17,9 +17,12 @@
 
 namespace plexway {
 
+namespace detail {
 class FaceLayout;
-class IntrinsicDelaunay;
+struct KeptParts;
 class TriangleShapes;
+}  // namespace detail
+class IntrinsicDelaunay;
 
 /// The counts of a surface, made while it is built.
 struct SurfaceSummary {
@@ -122,16 +125,11 @@ class TriangleMesh {
   /// of range, the same vertex twice in a face, no face, or more than 2^28 - 2 faces.
   /// Cost: linear, about 0.2 us a face on one thread; memory for a while is somewhat more with
   /// several.
-  TriangleMesh(std::span<const std::array<double, 3>> positions,
-               std::span<const std::array<Index, 3>> faces, const SurfaceHints& hints = {});
-
-  /// From arrays of any kind (rows_of): std::vector<std::array<float, 3>>, Eigen's matrices,
-  /// numbers in a row. What is not as above is copied for a while.
-  template <class Points, class Faces>
-  requires(OtherRows<Points, Faces, 3>)
-      TriangleMesh(const Points& positions, const Faces& faces, const SurfaceHints& hints = {})
-      : TriangleMesh(std::span<const std::array<double, 3>>(rows_of<double, 3>(positions)),
-                     std::span<const std::array<Index, 3>>(rows_of<Index, 3>(faces)), hints) {}
+  ///
+  /// Arrays of any kind will do (Given): std::vector<std::array<float, 3>>, Eigen's matrices,
+  /// numbers in a row.
+  TriangleMesh(const GivenPoints& positions, const GivenSimplices<3>& faces,
+               const SurfaceHints& hints = {});
 
   /// From intrinsic lengths: lengths[f][i] is the length of the edge from corner i of face f to the
   /// next (metric::triangle_edges), and must be the same from both sides (but for 1e-5, of which
@@ -140,8 +138,8 @@ class TriangleMesh {
   /// (SurfaceSummary::violated_faces counts). Throws as above, and for a length that is negative or
   /// not finite. With SurfaceHints::refracts each triangle keeps its own lengths (and is shortened
   /// alone), edges with two are SurfaceSummary::refracting_edges.
-  TriangleMesh(std::size_t vertices, std::span<const std::array<Index, 3>> faces,
-               std::span<const std::array<double, 3>> lengths, const SurfaceHints& hints = {});
+  TriangleMesh(std::size_t vertices, const GivenSimplices<3>& faces,
+               const Given<std::array<double, 3>>& lengths, const SurfaceHints& hints = {});
 
   /// From lengths and an explicit gluing, as intrinsic triangulations need: across[f][i] is the
   /// halfedge 3 g + j that edge i of face f is glued to, or `none`. More than two triangles on an
@@ -152,7 +150,8 @@ class TriangleMesh {
 
   /// From triangles whose angles are known as well as their lengths, laid out and glued: for makers
   /// inside the library, which answer for all of it. Throws only for a length that is not finite.
-  TriangleMesh(FaceLayout&& layout, const TriangleShapes& shapes, const SurfaceHints& hints);
+  TriangleMesh(detail::FaceLayout&& layout, const detail::TriangleShapes& shapes,
+               const SurfaceHints& hints);
 
   /// n, referenced or not: fields have one distance each.
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
@@ -174,14 +173,16 @@ class TriangleMesh {
   ///@{
 
   /// The records, and one sentinel behind them that stands for "no triangle".
-  [[nodiscard]] std::span<const TriangleRecord<Real>> triangles() const { return triangles_; }
+  [[nodiscard]] std::span<const detail::TriangleRecord<Real>> triangles() const {
+    return triangles_;
+  }
   /// The number inside of a vertex, which must be one (not checked).
   [[nodiscard]] Index inside_vertex(Index vertex) const { return vertex_to_inside_[vertex]; }
   /// The second is true if its corners run backwards here.
   [[nodiscard]] std::pair<Index, bool> inside_face(Index face) const {
     if (face >= face_to_inside_.size()) return {none, false};
     const Index inside = face_to_inside_[face];
-    return {inside, (triangles_[inside].face & reversed) != 0};
+    return {inside, (triangles_[inside].face & detail::reversed) != 0};
   }
   /// The number inside of each vertex, in the caller's order.
   [[nodiscard]] std::span<const Index> vertices_inside() const { return vertex_to_inside_; }
@@ -220,29 +221,31 @@ class TriangleMesh {
   ///@}
 
  private:
-  friend struct KeptParts;
+  friend struct detail::KeptParts;
   friend class IntrinsicDelaunay;
   TriangleMesh() = default;
 
-  void assemble(FaceLayout layout, const TriangleShapes& shapes, const SurfaceHints& hints);
-  std::vector<double> take_shapes(const TriangleShapes& shapes, std::span<const Index> first_use,
-                                  int threads);
+  void assemble(detail::FaceLayout layout, const detail::TriangleShapes& shapes,
+                const SurfaceHints& hints);
+  std::vector<double> take_shapes(const detail::TriangleShapes& shapes,
+                                  std::span<const Index> first_use, int threads);
   void place(std::span<const std::array<double, 3>> positions, int threads);
   void take_chords(std::span<const SurfaceChord> chords);
 
   SurfaceSummary summary_;
-  Identity identity_;
-  Rows<TriangleRecord<Real>, Unfilled<TriangleRecord<Real>>> triangles_;
-  Rows<Index> vertex_to_inside_;
-  Rows<Index> face_to_inside_;
-  Rows<Index> corner_of_vertex_;  // one corner a vertex (inside), or none
+  detail::Identity identity_;
+  detail::Rows<detail::TriangleRecord<Real>, detail::Unfilled<detail::TriangleRecord<Real>>>
+      triangles_;
+  detail::Rows<Index> vertex_to_inside_;
+  detail::Rows<Index> face_to_inside_;
+  detail::Rows<Index> corner_of_vertex_;  // one corner a vertex (inside), or none
   // Vertices whose corners one walk around cannot find: pinched, or on a non-manifold edge.
-  Rows<Index> irregular_, irregular_begin_, irregular_corners_;
-  Rows<Index> pinched_;
-  Rows<std::array<double, 3>> positions_;
+  detail::Rows<Index> irregular_, irregular_begin_, irregular_corners_;
+  detail::Rows<Index> pinched_;
+  detail::Rows<std::array<double, 3>> positions_;
   bool in_space_ = false;
-  Rows<Index> chord_begin_;  // a row a vertex, each chord in two of them
-  Rows<ChordEnd> chords_;
+  detail::Rows<Index> chord_begin_;  // a row a vertex, each chord in two of them
+  detail::Rows<ChordEnd> chords_;
 };
 
 /// Of the numbers that the points are: float, or double.

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include <plexway/common/detail/identity.hpp>
 #include <plexway/common/detail/rows.hpp>
@@ -13,6 +12,10 @@
 #include <plexway/domain/concept.hpp>
 
 namespace plexway {
+
+namespace detail {
+struct KeptParts;
+}  // namespace detail
 
 /// The counts of a wireframe, made while it is built.
 struct WireframeSummary {
@@ -62,18 +65,10 @@ class Wireframe {
   /// edge for an index out of range or a length too large for a double, the vertex for a coordinate
   /// that is not finite, and for more than 2^31 - 1 edges. Cost: n log n, about 0.2 us a
   /// vertex.
-  Wireframe(std::span<const std::array<double, 3>> positions,
-            std::span<const std::array<Index, 2>> edges);
-
-  /// From arrays of any kind (rows_of), as TriangleMesh.
-  template <class Points, class Edges>
-  requires(OtherRows<Points, Edges, 2>) Wireframe(const Points& positions, const Edges& edges)
-      : Wireframe(std::span<const std::array<double, 3>>(rows_of<double, 3>(positions)),
-                  std::span<const std::array<Index, 2>>(rows_of<Index, 2>(edges))) {}
+  Wireframe(const GivenPoints& positions, const GivenSimplices<2>& edges);
 
   /// From one length an edge. Throws as above, and for a length that is negative or not finite.
-  Wireframe(std::size_t vertices, std::span<const std::array<Index, 2>> edges,
-            std::span<const double> lengths);
+  Wireframe(std::size_t vertices, const GivenSimplices<2>& edges, const Given<double>& lengths);
 
   /// n, in an edge or not: fields have one distance each.
   [[nodiscard]] std::size_t vertex_count() const { return vertex_to_inside_.size(); }
@@ -125,19 +120,19 @@ class Wireframe {
   ///@}
 
  private:
-  friend struct KeptParts;
+  friend struct detail::KeptParts;
   Wireframe() = default;
 
   void assemble(std::span<const std::array<Index, 2>> edges, std::span<const double> lengths);
   void count_components();
 
   WireframeSummary summary_;
-  Identity identity_;
+  detail::Identity identity_;
   double unit_ = 1, typical_edge_ = 1;
-  Rows<Index> begin_;
-  Rows<WireArc<Real>> arcs_;
-  Rows<Index> vertex_to_inside_;
-  Rows<Index> arc_of_edge_;  // from the edge's first vertex to its second
+  detail::Rows<Index> begin_;
+  detail::Rows<WireArc<Real>> arcs_;
+  detail::Rows<Index> vertex_to_inside_;
+  detail::Rows<Index> arc_of_edge_;  // from the edge's first vertex to its second
 };
 
 /// Of the numbers that the points are: float, or double.

@@ -2,10 +2,8 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <span>
-#include <vector>
 
 #include <plexway/common/ids.hpp>
 #include <plexway/solve/options.hpp>

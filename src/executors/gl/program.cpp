@@ -6,8 +6,6 @@
 
 #include <plexway/error.hpp>
 
-#include "executors/gl/shader_text.hpp"
-
 namespace plexway::gl {
 namespace {
 

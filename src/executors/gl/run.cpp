@@ -9,6 +9,7 @@
 #include "labels/progress_counter.hpp"
 
 namespace plexway::gl {
+using namespace detail;
 
 void check_number(std::size_t sources) {
   if (sources > std::size_t{1} << 27)

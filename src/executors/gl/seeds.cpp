@@ -12,6 +12,7 @@
 #include "labels/wavefront.hpp"
 
 namespace plexway::gl {
+using namespace detail;
 namespace {
 
 using SolidLabel = SimplexLabel<float, 3>;
@@ -72,7 +73,7 @@ class HostFront {
   Wave front_;
 
  public:
-  detail::SimplexPropagation<TetMesh<float>, Wave> propagation;
+  SimplexPropagation<TetMesh<float>, Wave> propagation;
 };
 
 PropagateOptions without_limits(const PropagateOptions& options) {
@@ -126,7 +127,7 @@ void SolidSeeds::add(const TetMesh<float>& mesh, std::span<const PointSource> so
   HostFront host(mesh, options, workspace);
   for (std::size_t n = 0; n < sources.size(); ++n) {
     host.propagation.seed(sources[n], static_cast<Index>(n));
-    detail::offer_corners(mesh, sources[n], [&](Index v, double d) {
+    offer_corners(mesh, sources[n], [&](Index v, double d) {
       offers.push_back({static_cast<GLuint>(field * mesh.vertex_count() + v),
                         std::bit_cast<GLuint>(static_cast<float>(d)), static_cast<GLuint>(n), 0});
     });

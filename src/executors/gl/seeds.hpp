@@ -14,6 +14,7 @@
 #include "labels/workspace_state.hpp"
 
 namespace plexway::gl {
+using namespace detail;
 
 /// What a source itself offers to a vertex (shaders/claim.comp).
 struct VertexOffer {

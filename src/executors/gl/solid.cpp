@@ -10,6 +10,7 @@
 #include "executors/run.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 using namespace gl;
@@ -36,7 +37,7 @@ std::vector<std::array<float, 6>> squared_lengths(const TetMesh<float>& mesh) {
       const Index* const corner = mesh.tets()[t].corner;
       const auto along =
           mesh.points()[corner[tet_edge_ends[e][1]]] - mesh.points()[corner[tet_edge_ends[e][0]]];
-      lengths[t][e] = dot(along, along);
+      lengths[t][e] = static_cast<float>(dot(along, along));
     }
   return lengths;
 }
@@ -91,8 +92,7 @@ class SolidRun : public RunOn<TetMesh<float>, SolidBuffers> {
   [[nodiscard]] std::size_t cells() const { return fields_ * domain_.tet_count(); }
 
   static void upload(const Session& session, const Domain& mesh, SolidBuffers& to) {
-    static_assert(sizeof(TetRecord<float>) == 48 && sizeof(SolidCell) == 32 &&
-                  sizeof(AddedLabel) == 48);
+    static_assert(sizeof(TetRecord) == 32 && sizeof(SolidCell) == 32 && sizeof(AddedLabel) == 48);
     to.tets.upload(session, mesh.tets().first(mesh.tet_count()));
     to.inside.upload(session, mesh.vertices_inside());
     to.lengths.upload(session, std::span<const std::array<float, 6>>(squared_lengths(mesh)));

@@ -17,6 +17,7 @@
 /// label waits in so many fields (false if the budget is spent), and `read_out(seeds, distance,
 /// label)`, fields times vertices in the caller's order, where `label` may be empty.
 namespace plexway::gl {
+using namespace detail;
 
 /// Several fields over one domain, in one launch.
 template <class D, class Buffers>
@@ -26,7 +27,7 @@ class RunOn {
 
   static void check(const Domain& domain, std::span<const PointSource> sources,
                     const PropagateOptions& options) {
-    plexway::check(sources, options, domain);
+    detail::check(sources, options, domain);
     check_number(sources.size());
   }
 

@@ -1,4 +1,3 @@
-#include <array>
 #include <bit>
 #include <vector>
 
@@ -7,8 +6,10 @@
 #include "executors/checks.hpp"
 #include "executors/gl/solve.hpp"
 #include "executors/run.hpp"
+#include "labels/wireframe/wire_propagation.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 using namespace gl;
@@ -24,23 +25,12 @@ struct WireSeeds : SeedsOf<GLuint> {
   void add(const Wireframe<float>& wireframe, std::span<const PointSource> from, std::size_t field,
            WorkspaceState<float>&) {
     const std::size_t first = field * wireframe.vertex_count();
-    const auto put = [&](Index v, double sigma, std::size_t number) {
-      waiting.push_back(
-          {static_cast<GLuint>(first + v), std::bit_cast<GLuint>(static_cast<float>(sigma))});
-      labels.push_back(static_cast<GLuint>(number));
-    };
-    for (std::size_t n = 0; n < from.size(); ++n) {
-      const double sigma = from[n].offset / wireframe.unit();
-      if (from[n].vertex != none) {
-        put(wireframe.inside_vertex(from[n].vertex), sigma, n);
-        continue;
-      }
-      const auto edge = wireframe.inside_edge(from[n].simplex);
-      const std::array<double, 4>& b = from[n].barycentric;
-      const double length = static_cast<double>(edge.length);
-      if (b[1] != 1) put(edge.from, sigma + b[1] * length, n);
-      if (b[0] != 1) put(edge.to, sigma + b[0] * length, n);
-    }
+    for (std::size_t n = 0; n < from.size(); ++n)
+      offer_source(wireframe, from[n], [&](Index v, double sigma) {
+        waiting.push_back(
+            {static_cast<GLuint>(first + v), std::bit_cast<GLuint>(static_cast<float>(sigma))});
+        labels.push_back(static_cast<GLuint>(n));
+      });
   }
 };
 

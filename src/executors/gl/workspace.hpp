@@ -47,7 +47,7 @@ struct GLWorkspace::Implementation {
   std::unique_ptr<DomainBuffers> domain;
   std::uint64_t domain_identity = 0;
   gl::Buffer vertex_best, vertex_source, distances, sources, small;
-  WorkspaceState<float> host;  // for seeds
+  detail::WorkspaceState<float> host;  // for seeds
   std::size_t rounds = 0;
 };
 

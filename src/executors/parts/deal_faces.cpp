@@ -11,7 +11,7 @@
 #include "complexes/common/simplex_order.hpp"
 #include "executors/threads/rank_mail.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 using Corners = std::array<Index, 3>;
@@ -318,4 +318,4 @@ DealtFaces deal_faces(PieceRanks* ranks, const SurfaceRows& rows, const VertexHo
   return dealt;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

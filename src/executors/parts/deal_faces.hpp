@@ -12,7 +12,7 @@
 
 #include "complexes/partition/deal.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Which process has read a vertex: each its range of them. Others ask it for what they need to
 /// know of one.
@@ -63,4 +63,4 @@ struct DealtFaces {
 [[nodiscard]] DealtFaces deal_faces(PieceRanks* ranks, const SurfaceRows& rows,
                                     const VertexHomes& homes, std::size_t size);
 
-}  // namespace plexway
+}  // namespace plexway::detail

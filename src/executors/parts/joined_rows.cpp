@@ -12,6 +12,7 @@
 #include "executors/threads/rank_mail.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 using Point = std::array<double, 3>;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -9,7 +8,7 @@
 #include "executors/parts/part_pieces.hpp"
 #include "labels/workspace_state.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What is known of the vertices of one piece, by its numbers.
 template <class Number>
@@ -81,4 +80,4 @@ void each_as_surface(const Team& team, const PartPieces<Real>& pieces,
   });
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

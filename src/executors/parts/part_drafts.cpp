@@ -9,7 +9,7 @@
 #include <plexway/error.hpp>
 #include <plexway/surface/detail/triangle_record.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 using Point = std::array<double, 3>;
@@ -159,4 +159,4 @@ std::size_t sort_by_cut(PartDraft& draft, Deal deal, RankMail& mail) {
   return at_cut;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -13,7 +13,7 @@
 #include "executors/parts/deal_faces.hpp"
 #include "executors/threads/rank_mail.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A triangle of one piece for another, which it is a ghost in.
 struct PartGhost {
@@ -76,4 +76,4 @@ struct PartDraft {
 /// many there are.
 std::size_t sort_by_cut(PartDraft& draft, Deal deal, RankMail& mail);
 
-}  // namespace plexway
+}  // namespace plexway::detail

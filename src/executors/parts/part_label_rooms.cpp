@@ -5,17 +5,16 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <type_traits>
 
 #include "complexes/surface/saddle_vertices.hpp"
 #include "complexes/surface/shape_blocks.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 /// What there is around a vertex.
 struct Around {
-  double excess = 0;  ///< as plexway::mark_saddles takes it
+  double excess = 0;  ///< as mark_saddles takes it
   bool on_boundary = false;
 };
 
@@ -142,8 +141,8 @@ void PartLabelRooms<Real>::mark_saddles(const Team& team) {
       for (Real& sine : t.signed_sine) sine = std::abs(sine);
     std::vector<Index> first_use(around[i].size());
     std::iota(first_use.begin(), first_use.end(), Index{0});
-    plexway::mark_saddles<Real>(all_[i].triangles, fans, first_use, std::move(excess),
-                                {.threads = 1}, pieces_.summary().vertices);
+    detail::mark_saddles<Real>(all_[i].triangles, fans, first_use, std::move(excess),
+                               {.threads = 1}, pieces_.summary().vertices);
   });
   tell_of_ghosts(
       team.ranks(), pieces_,
@@ -168,4 +167,4 @@ std::size_t PartLabelRooms<Real>::bytes() const {
 template class PartLabelRooms<float>;
 template class PartLabelRooms<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -9,7 +9,7 @@
 #include "executors/threads/team.hpp"
 #include "labels/pieces/triangle_patches.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What labels of a surface in parts need and keep from solve to solve: of this process's pieces.
 /// Labels read from a triangle where paths may bend, which depends on what lies around its corners
@@ -46,4 +46,4 @@ class PartLabelRooms {
 extern template class PartLabelRooms<float>;
 extern template class PartLabelRooms<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,7 +1,6 @@
 #include "executors/parts/part_pieces.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -16,7 +15,7 @@
 #include "executors/parts/part_drafts.hpp"
 #include "labels/pieces/triangle_patches.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 using Point = std::array<double, 3>;
@@ -306,4 +305,4 @@ template struct PartPiece<double>;
 template class PartPieces<float>;
 template class PartPieces<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -17,7 +17,7 @@
 #include "windows/vertex_angles.hpp"
 #include "windows/window_patches.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// One piece of a surface in parts: a small surface of its own triangles, those at the cut first,
 /// and behind them the ghosts, all that share a vertex with them. Vertices are numbered as they are
@@ -111,4 +111,4 @@ class PartPieces {
 extern template class PartPieces<float>;
 extern template class PartPieces<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

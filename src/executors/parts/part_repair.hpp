@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -12,7 +10,7 @@
 #include "labels/alone.hpp"
 #include "labels/surface/repair_surface.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// As surface::repair, on a surface in parts: vertices are raised to straight lines where they are,
 /// and lowered along edges piece by piece until none hears of anything nearer. What comes out of
@@ -34,7 +32,9 @@ class PartRepair {
     while (agree(team_.ranks(), pieces_, known_, sent));
     if (team_.any(any)) {
       for (std::size_t i = 0; i < known_.size(); ++i)
-        repaired.lowered += count_lowered(i, before[i]);
+        repaired.lowered += count(i, [&](std::size_t v) {
+          return known_[i].distance[v] < before[i][v] * Real(1 - 1e-4);
+        });
       raise();
       agree(team_.ranks(), pieces_, known_, sent);  // pieces see lines from where they are
     }
@@ -42,17 +42,18 @@ class PartRepair {
   }
 
  private:
-  /// Returns how many vertices were below by more than 1e-4, each in its first piece.
+  /// Returns how many vertices were below by more than `much_nearer`, each in its first piece.
   std::size_t raise() {
     std::vector<std::size_t> raised(known_.size(), 0);
-    each([&](std::size_t i, WorkspaceState<Real>& workspace) {
+    each_as_surface(team_, pieces_, known_, [&](std::size_t i, WorkspaceState<Real>& workspace) {
       const PartPiece<Real>& part = pieces_.parts()[i];
       const auto places = sources_.places(part, pieces_.unit());
       const StraightLines<Real> lines(part.mesh->positions(), places);
       std::vector<Real> before = workspace.vertex;
       if (lines.template raise<kLabels>(workspace, Alone{}) > 0)
-        raised[i] = count(
-            i, [&](std::size_t v) { return before[v] < workspace.vertex[v] * Real(1 - 1e-4); });
+        raised[i] = count(i, [&](std::size_t v) {
+          return before[v] < workspace.vertex[v] * Real(1 - much_nearer);
+        });
     });
     std::size_t sum = 0;
     for (const std::size_t one : raised) sum += one;
@@ -61,7 +62,7 @@ class PartRepair {
 
   bool lower() {
     std::vector<char> any(known_.size(), 0);
-    each([&](std::size_t i, WorkspaceState<Real>& workspace) {
+    each_as_surface(team_, pieces_, known_, [&](std::size_t i, WorkspaceState<Real>& workspace) {
       const TriangleMesh<Real>& mesh = *pieces_.parts()[i].mesh;
       workspace.front.reserve(mesh.face_count());
       any[i] = read_out_edges<Real, kLabels>(mesh, workspace, Alone{}).any;
@@ -69,10 +70,6 @@ class PartRepair {
     return std::any_of(any.begin(), any.end(), [](char one) { return one != 0; });
   }
 
-  std::size_t count_lowered(std::size_t i, std::span<const Real> before) const {
-    return count(i,
-                 [&](std::size_t v) { return known_[i].distance[v] < before[v] * Real(1 - 1e-4); });
-  }
   /// Vertices that this piece is the first to have.
   template <class Wanted>
   std::size_t count(std::size_t i, const Wanted& wanted) const {
@@ -83,15 +80,10 @@ class PartRepair {
     return sum;
   }
 
-  template <class Work>
-  void each(const Work& work) {
-    each_as_surface(team_, pieces_, known_, work);
-  }
-
   const Team& team_;
   const PartPieces<Real>& pieces_;
   const PartSources& sources_;
   std::span<PartDistances<Real>> known_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

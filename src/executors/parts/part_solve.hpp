@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -14,16 +13,16 @@
 #include <plexway/executors/surface_parts.hpp>
 
 #include "complexes/common/number_range.hpp"
-#include "executors/drive.hpp"
 #include "executors/parts/part_pieces.hpp"
 #include "executors/parts/part_repair.hpp"
 #include "executors/parts/part_sources.hpp"
 #include "executors/parts/parted_labels.hpp"
 #include "executors/parts/parted_windows.hpp"
 #include "executors/threads/window_scheduler.hpp"
+#include "labels/finish.hpp"
 #include "windows/merged_windows.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The vertices that a process has, by the surface's numbers, ascending.
 template <class Real>
@@ -250,4 +249,4 @@ class PartSolve {
   PartField<Real> field_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -12,7 +12,7 @@
 
 #include "complexes/common/closest_point.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 /// Numbers of the surface that sources name, and which these are.
@@ -198,4 +198,4 @@ template PartSources part_sources(PieceRanks*, const PartPieces<double>&,
 template PartPoint nearest_on(const Team&, const PartPieces<float>&, const std::array<double, 3>&);
 template PartPoint nearest_on(const Team&, const PartPieces<double>&, const std::array<double, 3>&);
 
-}  // namespace plexway
+}  // namespace plexway::detail

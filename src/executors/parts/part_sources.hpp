@@ -10,7 +10,7 @@
 #include "executors/parts/part_pieces.hpp"
 #include "labels/straight_lines.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Where the sources of a solve are in the pieces of this process.
 struct PartSources {
@@ -54,4 +54,4 @@ template <class Real>
 [[nodiscard]] PartPoint nearest_on(const Team& team, const PartPieces<Real>& pieces,
                                    const std::array<double, 3>& point);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -19,7 +19,7 @@
 #include "labels/pieces/triangle_piece.hpp"
 #include "labels/surface/triangle_propagation.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Visibility::saddles, for the front of any piece.
 template <class Real>
@@ -36,7 +36,7 @@ struct SaddlesInParts {
 /// The other policies.
 template <class Real>
 struct PlainInParts {
-  using Label = PlainLabel<Real>;
+  using Label = SimplexLabel<Real, 2>;
   ProbeAim<Real> aim;
   template <class Front>
   [[nodiscard]] PlainRule<Real, Front> over(std::span<const TriangleRecord<Real>> triangles,
@@ -236,4 +236,4 @@ class PartedLabels {
   PropagateStatistics statistics_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

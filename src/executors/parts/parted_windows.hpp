@@ -1,18 +1,15 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <span>
-#include <vector>
 
 #include "executors/parts/part_distances.hpp"
 #include "executors/parts/part_pieces.hpp"
 #include "executors/parts/part_sources.hpp"
 #include "windows/window_piece.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Windows on a surface in parts: the pieces of this process. As windows::PiecedWindows, but that
 /// nobody looks at the whole.
@@ -123,4 +120,4 @@ class PartedWindows {
   PropagateStatistics statistics_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

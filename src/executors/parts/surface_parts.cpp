@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 #include <type_traits>
-#include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/support.hpp>
@@ -21,6 +20,7 @@
 #include "windows/merged_windows.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 /// Triangles a piece: enough that ghosts are few, and not more pieces than every process can list.

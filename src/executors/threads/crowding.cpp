@@ -9,7 +9,7 @@
 #include <unistd.h>
 #endif
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr double shortest = 8e-3, longest = 0.5;
@@ -44,4 +44,4 @@ double seconds_of_thread() noexcept {
   return seconds_on_wall();
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

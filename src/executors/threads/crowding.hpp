@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Another program on our cores makes threads that wait for each other wait for it: one thread is
 /// faster than two then. How many threads' worth of work a team does is what its threads worked, by
@@ -56,4 +56,4 @@ class CrowdWatch {
   double passed_ = 0;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -14,7 +14,7 @@
 #include "executors/threads/rank_mail.hpp"
 #include "labels/pieces/mail.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What pieces of one process tell those of others in supersteps: one message to each, and the sums
 /// and minima by the way. Does nothing for a process alone.
@@ -78,4 +78,4 @@ class PiecePost {
   std::vector<std::pair<Index, Index>> full_;          // which of these are not empty
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -13,7 +13,7 @@
 #include "labels/pieces/triangle_patches.hpp"
 #include "labels/pieces/triangle_piece.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// How a surface is cut and how its pieces take turns. Of the surface alone, never of threads.
 struct PieceSettings {
@@ -24,9 +24,9 @@ struct PieceSettings {
 /// A team does the work of a solve on a surface, piece by piece. Seeds, pinches, revivals and
 /// repairs are done on the whole by one thread between runs, as for `Serial`, and read-out by all.
 template <class Real, bool kLabels>
-class PieceScheduler : public TeamScheduler<Real, kLabels> {
+class PieceScheduler : public TeamScheduler<Real> {
  public:
-  using Base = TeamScheduler<Real, kLabels>;
+  using Base = TeamScheduler<Real>;
   PieceScheduler(const Base& base, const TriangleMesh<Real>& mesh, const PieceSettings& settings)
       : Base(base), mesh_(mesh), settings_(settings) {}
 
@@ -154,4 +154,4 @@ class PieceScheduler : public TeamScheduler<Real, kLabels> {
   PieceSettings settings_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -12,7 +12,7 @@
 
 #include "complexes/partition/deal.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Bytes that grow, value by value.
 class Parcel {
@@ -174,4 +174,4 @@ std::size_t share_pieces(PieceRanks* ranks, std::size_t pieces, const Write& wri
   return all.bytes().size() * (deal.count - 1);
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

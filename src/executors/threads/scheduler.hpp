@@ -12,11 +12,11 @@
 #include "executors/threads/team.hpp"
 #include "labels/workspace_state.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What a team does for a solve besides the propagation, which schedulers that derive from it share
 /// out.
-template <class Real, bool kLabels>
+template <class Real>
 class TeamScheduler {
  public:
   TeamScheduler(const Team& team, WorkspaceState<Real>& workspace, Real step, double unit,
@@ -74,4 +74,4 @@ inline bool is_one_piece(std::size_t size, std::size_t simplices) {
   return simplices < size + size / 2;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

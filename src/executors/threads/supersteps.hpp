@@ -9,7 +9,6 @@
 #include <functional>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <plexway/solve/distance_field.hpp>
@@ -24,7 +23,7 @@
 #include "labels/pieces/mail.hpp"
 #include "labels/progress_counter.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A propagation in pieces by a team. In a superstep each piece that has something to do takes the
 /// messages of the superstep before, runs up to a horizon, and posts what its peers must know. So a
@@ -136,7 +135,7 @@ class Supersteps {
   };
   /// Of all pieces.
   struct Sums {
-    enum Name { expansions, first, runs, messages, updates, reached, weight, names };
+    enum Name { expansions, first, messages, updates, reached, weight, names };
 
     Real nearest = std::numeric_limits<Real>::infinity();  ///< of what waits or was told
     std::size_t sent = 0;                                  ///< bytes
@@ -205,7 +204,6 @@ class Supersteps {
   Sums meet(std::span<const std::size_t> ran) {
     Sums all;
     std::fill(awake_.begin(), awake_.end(), 0);
-    all.sum[Sums::runs] = ran.size();
     for (const std::size_t i : ran) {
       const After& after = after_[i];
       all.sum[Sums::expansions] += after.work.expansions;
@@ -240,7 +238,6 @@ class Supersteps {
     counts_.bytes += messages * sizeof(Message);
     counts_.sent += sums.sent;
     ++counts_.supersteps;
-    counts_.runs += sums.of(Sums::runs);
     done_ += expansions;
     constexpr double most_repeats = 0.3;
     plan(sums, static_cast<double>(sums.of(Sums::first)) <
@@ -330,4 +327,4 @@ class Supersteps {
   OwnedWork owned_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

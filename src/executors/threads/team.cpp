@@ -17,6 +17,7 @@
 #endif
 
 namespace plexway {
+using namespace detail;
 
 bool openmp_built() {
 #if defined(PLEXWAY_CORE_OPENMP) || defined(PLEXWAY_TEAM_OF_THREADS)
@@ -25,6 +26,8 @@ bool openmp_built() {
   return false;
 #endif
 }
+
+namespace detail {
 
 Team::Team(const OpenMP& executor) : size_(executor.threads), ranks_(executor.ranks) {
   if (!openmp_built())
@@ -93,6 +96,8 @@ void Team::run_guarded(const std::function<void(int, int)>& work) const {
 #endif
 }
 
+}  // namespace detail
+
 std::size_t team_size(const OpenMP& executor) {
   return static_cast<std::size_t>(Team(executor).size());
 }
@@ -101,20 +106,7 @@ namespace detail {
 
 void share_out(const OpenMP& executor, std::size_t count,
                const std::function<void(std::size_t, std::size_t)>& work) {
-  const Team team(executor);
-  std::atomic<std::size_t> next{0};
-  team.run([&](int thread, int) {
-    for (;;) {
-      const std::size_t k = next.fetch_add(1, std::memory_order_relaxed);
-      if (k >= count) return;
-      try {
-        work(k, static_cast<std::size_t>(thread));
-      } catch (...) {
-        next.store(count, std::memory_order_relaxed);  // no more for the others
-        throw;
-      }
-    }
-  });
+  Team(executor).each(count, work);
 }
 
 }  // namespace detail

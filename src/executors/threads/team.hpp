@@ -7,6 +7,7 @@
 #include <functional>
 #include <mutex>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 #include <plexway/common/blocks.hpp>
@@ -18,7 +19,7 @@
 #include "executors/threads/crowding.hpp"
 #include "executors/threads/rank_mail.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Where a team's threads wait for each other: all come, the first then does what must be done
 /// alone, and lets the others go. Waits without sleeping at first, as turns are short.
@@ -182,15 +183,20 @@ class Team {
     });
   }
 
-  /// Calls work(i) for all i < count, by threads as they come.
+  /// Calls work(i) or work(i, thread) for all i < count, by threads as they come, until one throws.
   template <class Work>
   void each(std::size_t count, const Work& work) const {
     std::atomic<std::size_t> next{0};
-    run([&](int, int) {
-      for (;;) {
-        const std::size_t i = next.fetch_add(1, std::memory_order_relaxed);
-        if (i >= count) return;
-        work(i);
+    run([&](int thread, int) {
+      try {
+        for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;)
+          if constexpr (std::is_invocable_v<const Work&, std::size_t>)
+            work(i);
+          else
+            work(i, static_cast<std::size_t>(thread));
+      } catch (...) {
+        next.store(count, std::memory_order_relaxed);  // no more for the others
+        throw;
       }
     });
   }
@@ -245,4 +251,4 @@ class OwnedWork {
   std::vector<std::atomic<std::size_t>> taken_;  // in which turn last
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

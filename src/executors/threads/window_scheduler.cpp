@@ -5,7 +5,7 @@
 #include "executors/threads/window_scheduler.hpp"
 #include "windows/solve_by.inl"
 
-namespace plexway {
+namespace plexway::detail {
 template <class Real>
 bool solve_by_windows(const OpenMP& executor, const TriangleMesh<Real>& mesh,
                       std::span<const PointSource> sources, Accuracy accuracy,
@@ -18,7 +18,7 @@ bool solve_by_windows(const OpenMP& executor, const TriangleMesh<Real>& mesh,
       solver.kept() != nullptr)
     return solver.solve_by(Alone{}, sources, accuracy, options, workspace, field);
   workspace.front.reserve(mesh.face_count());
-  const TeamScheduler<Real, false> scheduler(team, workspace, 0, mesh.unit(), options);
+  const TeamScheduler<Real> scheduler(team, workspace, 0, mesh.unit(), options);
   bool solved = false;
   team.hold([&] {
     solved = solver.solve_by(WindowScheduler<Real>(scheduler, size), sources, accuracy, options,
@@ -34,4 +34,4 @@ template bool solve_by_windows(const OpenMP&, const TriangleMesh<double>&,
                                std::span<const PointSource>, Accuracy, const PropagateOptions&,
                                WorkspaceState<double>&, DistanceField<double>&);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -17,7 +17,7 @@
 #include "executors/threads/team.hpp"
 #include "labels/workspace_state.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A superstep's pace by windows, in roots of the number of triangles: mean edges. A third of what
 /// labels take: windows that come late do not merge with those that were there.
@@ -25,9 +25,9 @@ inline constexpr double window_pace = 1. / 48;
 
 /// A team solves by windows, in pieces.
 template <class Real>
-class WindowScheduler : public TeamScheduler<Real, false> {
+class WindowScheduler : public TeamScheduler<Real> {
  public:
-  using Base = TeamScheduler<Real, false>;
+  using Base = TeamScheduler<Real>;
   WindowScheduler(const Base& base, std::size_t size) : Base(base), size_(size) {}
 
   [[nodiscard]] std::size_t piece_size() const { return size_; }
@@ -73,4 +73,4 @@ template <class Real>
                                     const PropagateOptions& options,
                                     WorkspaceState<Real>& workspace, DistanceField<Real>& field);
 
-}  // namespace plexway
+}  // namespace plexway::detail

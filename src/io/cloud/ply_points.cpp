@@ -11,47 +11,35 @@ namespace plexway::io {
 namespace {
 
 /// The vertices' normals where all three numbers are there.
-struct Normals {
-  std::array<const PlyProperty*, 3> axes{};
-
-  explicit Normals(const PlyElement& vertex) {
-    constexpr std::array<std::string_view, 3> names = {"nx", "ny", "nz"};
-    for (std::size_t k = 0; k < 3; ++k) axes[k] = find_property(vertex, names[k]);
-    bool whole = true;
-    for (const PlyProperty* axis : axes) whole = whole && axis != nullptr && !axis->is_list;
-    if (!whole) axes.fill(nullptr);
+PlyTriple normals_of(const PlyElement& vertex) {
+  static constexpr std::string_view names[3] = {"the normal's nx", "the normal's ny",
+                                                "the normal's nz"};
+  PlyTriple normals{{}, names};
+  for (std::size_t k = 0; k < 3; ++k) {
+    normals.axes[k] = find_property(vertex, names[k].substr(13));
+    if (normals.axes[k] == nullptr || normals.axes[k]->is_list) return {};
   }
-
-  explicit operator bool() const { return axes[0] != nullptr; }
-
-  template <class Source>
-  bool take(Source& source, const PlyProperty& property, std::array<double, 3>& normal) const {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (&property != axes[k]) continue;
-      normal[k] = source.real(property.type, "the normal's " + std::string(property.name));
-      return true;
-    }
-    return false;
-  }
-};
+  return normals;
+}
 
 template <class Source>
 Points read_point_body(Source source, const PlyHeader& header, const PlyVertex& vertex) {
-  const Normals normals(*vertex.element);
+  const PlyTriple normals = normals_of(*vertex.element);
+  const bool normal = normals.axes[0] != nullptr;
   Points points;
   const auto begin = [&](const PlyElement& element) {
     if (&element != vertex.element) return;
     points.positions.reserve(element.count);
-    if (normals) points.normals.reserve(element.count);
+    if (normal) points.normals.reserve(element.count);
   };
   const auto read = [&](const PlyElement& element, std::uint64_t, const PlyProperty& property) {
     if (&element != vertex.element) return false;
     if (&property == &element.properties.front()) {
       points.positions.push_back({});
-      if (normals) points.normals.push_back({});
+      if (normal) points.normals.push_back({});
     }
     return vertex.take(source, property, points.positions.back()) ||
-           (normals && normals.take(source, property, points.normals.back()));
+           (normal && normals.take(source, property, points.normals.back()));
   };
   walk_ply(source, header, begin, read);
   return points;

@@ -144,9 +144,7 @@ class PointTable {
   void take_header(const Fields& fields) {
     at_.fill(absent);
     for (std::size_t c = 0; c < fields.size(); ++c) {
-      std::string lower(fields[c]);
-      for (char& letter : lower)
-        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter + ('a' - 'A'));
+      const std::string lower = lower_case(fields[c]);
       for (std::size_t k = 0; k < 6; ++k) {
         if (lower != names[k]) continue;
         if (at_[k] != absent) fail("names two columns " + quote(fields[c]));

@@ -102,11 +102,11 @@ namespace {
 
 using FieldWriter = void (*)(OutputFile&, const Field&);
 
-constexpr std::array<std::string_view, 7> field_suffixes = {".csv", ".npy", ".ply", ".vtk",
-                                                            ".vtu", ".glb", ".gltf"};
-constexpr std::array<FieldWriter, 7> field_writers = {write_csv, write_npy, write_ply, write_vtk,
-                                                      write_vtu, write_glb, write_gltf};
-constexpr std::size_t without_positions = 2;  ///< so many at the front need none
+constexpr std::array<std::string_view, 8> field_suffixes = {".csv", ".npy", ".gii", ".ply",
+                                                            ".vtk", ".vtu", ".glb", ".gltf"};
+constexpr std::array<FieldWriter, 8> field_writers = {
+    write_csv, write_npy, write_gifti, write_ply, write_vtk, write_vtu, write_glb, write_gltf};
+constexpr std::size_t without_positions = 3;  ///< so many at the front need none
 
 void require_length(std::string_view what, std::size_t length, std::size_t vertices) {
   if (length != vertices)
@@ -129,8 +129,9 @@ void write_field_of(const std::filesystem::path& file, const Field& field) {
   if (known == field_suffixes.end()) throw UsageError(unknown_extension(file, field_suffixes));
   const auto format = static_cast<std::size_t>(known - field_suffixes.begin());
   if (format >= without_positions && field.positions.size() != field.vertices)
-    throw UsageError(file.string() + ": " + extension +
-                     " needs positions, and these vertices have none; .csv and .npy do without");
+    throw UsageError(
+        file.string() + ": " + extension +
+        " needs positions, and these vertices have none; .csv, .npy and .gii do without");
   OutputFile out(file);
   field_writers[format](out, field);
   out.commit();

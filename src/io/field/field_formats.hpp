@@ -62,9 +62,11 @@ struct Field {
   }
 };
 
-/// These two need no positions.
+/// These three need no positions.
 void write_csv(OutputFile& out, const Field& field);
 void write_npy(OutputFile& out, const Field& field);
+/// In single precision, as the format asks for.
+void write_gifti(OutputFile& out, const Field& field);
 /// Triangles become faces, edges edges; tetrahedra have no place in it.
 void write_ply(OutputFile& out, const Field& field);
 /// Throws Error when there are more vertices than its 32 bits count.

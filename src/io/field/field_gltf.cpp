@@ -18,6 +18,7 @@
 #include "io/numbers.hpp"
 
 namespace plexway::io {
+using namespace detail;
 namespace {
 
 constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();

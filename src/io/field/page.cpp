@@ -16,6 +16,7 @@
 #include "io/output_file.hpp"
 
 namespace plexway::io {
+using namespace detail;
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();

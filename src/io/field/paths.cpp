@@ -23,7 +23,7 @@ struct Paths {
   [[nodiscard]] auto end() const { return all.end(); }
 };
 
-constexpr std::array<std::string_view, 4> path_suffixes = {".obj", ".ply", ".vtp", ".json"};
+constexpr std::array<std::string_view, 5> path_suffixes = {".obj", ".ply", ".vtp", ".csv", ".json"};
 
 std::size_t count_points(const Paths& paths) {
   std::size_t count = 0;
@@ -68,6 +68,17 @@ void write_ply(OutputFile& out, const Paths& paths) {
       out.write(next + i, " ", next + i + 1, "\n");
     next += path.positions.size();
   }
+}
+
+void write_path_csv(OutputFile& out, const Paths& paths) {
+  out.write(paths.values.empty() ? "path,x,y,z\n" : "path,x,y,z,value\n");
+  for (std::size_t k = 0; k < paths.all.size(); ++k)
+    for (const auto& p : paths.all[k].positions) {
+      out.write(k, ",");
+      out.write_row(p, ",");
+      if (!paths.values.empty()) out.write(",", paths.values[paths.all[k].source]);
+      out.write("\n");
+    }
 }
 
 void write_vtp(OutputFile& out, const Paths& paths) {
@@ -137,8 +148,8 @@ void write_json(OutputFile& out, const Paths& paths) {
 }
 
 using PathWriter = void (*)(OutputFile&, const Paths&);
-constexpr std::array<PathWriter, 4> path_writers = {write_path_obj, write_ply, write_vtp,
-                                                    write_json};
+constexpr std::array<PathWriter, 5> path_writers = {write_path_obj, write_ply, write_vtp,
+                                                    write_path_csv, write_json};
 
 void write_lines(const std::filesystem::path& file, const Paths& paths) {
   const std::string extension = lower_extension(file);

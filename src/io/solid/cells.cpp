@@ -1,6 +1,7 @@
 #include "io/solid/cells.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "io/surface/polygons.hpp"
@@ -281,6 +282,32 @@ Edges edges_of(Mixed cells, std::string_view name) {
   cells.report.pass_over("triangles", cells.triangles.size());
   const std::size_t n = cells.positions.size();
   return {std::move(cells.positions), std::move(cells.edges), {}, n, std::move(cells.report)};
+}
+
+void close_seams(Mixed& cells) {
+  const auto& p = cells.positions;
+  std::vector<std::uint32_t> order(p.size()), becomes(p.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return p[a] != p[b] ? p[a] < p[b] : a < b; });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    becomes[order[i]] = i > 0 && p[order[i]] == p[order[i - 1]] ? becomes[order[i - 1]] : order[i];
+  std::vector<std::array<double, 3>> kept;
+  std::vector<std::uint32_t> number(p.size());
+  for (std::uint32_t v = 0; v < p.size(); ++v)
+    if (becomes[v] == v) {
+      number[v] = static_cast<std::uint32_t>(kept.size());
+      kept.push_back(p[v]);
+    }
+  const auto renumber = [&](auto& rows) {
+    for (auto& row : rows)
+      for (std::uint32_t& v : row) v = number[becomes[v]];
+  };
+  renumber(cells.edges);
+  renumber(cells.triangles);
+  cells.positions = std::move(kept);
+  std::erase_if(cells.triangles,
+                [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[0] == t[2]; });
 }
 
 Mixed mixed_of(Triangles surface) {

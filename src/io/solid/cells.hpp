@@ -89,6 +89,10 @@ class CellTaker {
 /// A surface as cells.
 [[nodiscard]] Mixed mixed_of(Triangles surface);
 
+/// Vertices at one place become the first of them, where a format cuts surfaces along seams of
+/// normals and textures. Triangles of which a corner then comes twice are left out.
+void close_seams(Mixed& cells);
+
 /// The cells of an unstructured grid: cell c has the corners connectivity[ends[c-1]] and on, up to
 /// ends[c], and starts at 0 for c = 0.
 struct VtkCells {

@@ -13,13 +13,6 @@ namespace {
 
 using enum NumberType;
 
-std::string lower_case(std::string_view word) {
-  std::string text(word);
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
-  return text;
-}
-
 /// What follows the first three lines, `Source` being TextValues or ByteValues.
 template <class Source>
 class LegacyReader {

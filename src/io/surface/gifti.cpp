@@ -14,14 +14,9 @@
 #if PLEXWAY_IO_PUGIXML
 #include <pugixml.hpp>
 
-#if PLEXWAY_IO_ZLIB
-#include <zlib.h>
-#endif
-
 #include <array>
 #include <bit>
 #include <cmath>
-#include <optional>
 
 #include "io/base64.hpp"
 #include "io/field/value_source.hpp"
@@ -111,30 +106,12 @@ class GiftiReader {
     const std::string_view text = array.child("Data").child_value();
     std::string data;
     if (!decode_base64(text, data)) fail("an array is not whole base64");
-    if (encoding == "Base64Binary") {
-      if (data.size() != bytes) wrong_size(data.size(), bytes);
-      return data;
-    }
-#if PLEXWAY_IO_ZLIB
-    // Deflate packs a byte into no less than 1/1032.
-    if (bytes / 1032 > data.size() + 64) wrong_size(data.size(), bytes);
-    std::string out(bytes, '\0');
-    uLongf written = static_cast<uLongf>(bytes);
-    if (uncompress(reinterpret_cast<Bytef*>(out.data()), &written,
-                   reinterpret_cast<const Bytef*>(data.data()),
-                   static_cast<uLong>(data.size())) != Z_OK ||
-        written != bytes)
-      fail("an array does not unpack to its " + std::to_string(bytes) + " bytes");
-    return out;
-#else
-    throw NotBuiltError(std::string(name_) +
-                        ": this plexway reads no compressed GIfTI: install zlib1g-dev and build it "
-                        "again, or save the file without compression");
-#endif
-  }
-  [[noreturn]] void wrong_size(std::uint64_t is, std::uint64_t should) const {
-    fail("an array has " + std::to_string(is) + " bytes where its dimensions ask for " +
-         std::to_string(should));
+    if (encoding == "GZipBase64Binary")
+      data = inflated(data, Deflated::zlib, bytes, std::string(name_) + ": an array");
+    if (data.size() != bytes)
+      fail("an array has " + std::to_string(data.size()) + " bytes where its dimensions ask for " +
+           std::to_string(bytes));
+    return data;
   }
 
   template <std::size_t N, class Visit>
@@ -150,7 +127,7 @@ class GiftiReader {
         std::string_view(array.attribute("ArrayIndexingOrder").value()) == "ColumnMajorOrder";
     std::vector<double> numbers;
     if (encoding == "ASCII") {
-      TextScanner in(array.child("Data").child_value(), name_);
+      TextScanner in = TextScanner::of_value(array.child("Data").child_value(), name_);
       while (in.to_content() && numbers.size() <= rows * N)
         numbers.push_back(in.number("a number of an array"));
       if (numbers.size() != rows * N)

@@ -12,47 +12,41 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <tuple>
 
 #include "io/base64.hpp"
 #include "io/names.hpp"
 #include "io/numbers.hpp"
 #include "io/solid/cells.hpp"
+#include "io/surface/placing.hpp"
 
 namespace plexway::io {
 namespace {
 
 using Json = nlohmann::json;
-using Matrix = std::array<double, 16>;  // column by column
-
-constexpr Matrix identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-
-Matrix product(const Matrix& a, const Matrix& b) {
-  Matrix c{};
-  for (std::size_t column = 0; column < 4; ++column)
-    for (std::size_t row = 0; row < 4; ++row)
-      for (std::size_t k = 0; k < 4; ++k) c[4 * column + row] += a[4 * k + row] * b[4 * column + k];
-  return c;
-}
+constexpr char draco[] = "KHR_draco_mesh_compression";
 
 class GltfReader {
  public:
   GltfReader(std::string_view bytes, std::string_view name, const GltfFiles& beside)
-      : name_(name), beside_(beside), size_(bytes.size()) {
+      : name_(name), beside_(beside), repeats_{bytes.size()} {
     open(bytes);
   }
 
   Mixed read() {
     for (const auto& needed : list(json_, "extensionsRequired")) {
       const std::string extension = text(needed);
+      needs_draco_ = needs_draco_ || extension == draco;
       // Numbers of another kind, and what has to do with looks alone.
       const auto starts = [&](std::string_view what) { return extension.starts_with(what); };
-      if (extension == "KHR_mesh_quantization" || starts("KHR_materials_") ||
+      if (extension == "KHR_mesh_quantization" || extension == draco || starts("KHR_materials_") ||
           starts("KHR_texture_") || starts("EXT_texture_"))
         continue;
-      if (extension.find("draco") != extension.npos || extension.find("meshopt") != extension.npos)
+      if (extension.find("meshopt") != extension.npos)
         fail("is packed (" + extension +
              "), which is not read; unpack it, with 'gltf-transform copy' or Blender");
       fail("needs the extension " + quote(extension) + ", which is not read; save it without");
@@ -62,15 +56,14 @@ class GltfReader {
     own_ = asset.is_object() && asset.contains("generator") && asset["generator"] == "plexway";
     const auto& scenes = list(json_, "scenes");
     if (scenes.empty()) {
-      for (std::size_t n = 0; n < list(json_, "nodes").size(); ++n) add_node(n, identity, 0);
+      for (std::size_t n = 0; n < list(json_, "nodes").size(); ++n) add_node(n, {}, 0);
       if (list(json_, "nodes").empty())
-        for (std::size_t m = 0; m < list(json_, "meshes").size(); ++m) add_mesh(m, identity);
+        for (std::size_t m = 0; m < list(json_, "meshes").size(); ++m) add_mesh(m, {});
     } else {
       const std::size_t scene = json_.contains("scene") ? index(json_["scene"], "scenes") : 0;
-      for (const auto& root : list(scenes[scene], "nodes"))
-        add_node(index(root, "nodes"), identity, 0);
+      for (const auto& root : list(scenes[scene], "nodes")) add_node(index(root, "nodes"), {}, 0);
     }
-    if (!own_) weld();
+    if (!own_) close_seams(cells_);
     if (cells_.positions.empty()) fail("has no points");
     return std::move(cells_);
   }
@@ -144,7 +137,7 @@ class GltfReader {
     const auto comma = uri.find(',');
     if (!uri.starts_with("data:") || comma == uri.npos) {
       if (!beside_) fail("has its numbers in another file, " + quote(uri));
-      size_ += (found->second = beside_(uri)).size();
+      repeats_.bytes += (found->second = beside_(uri)).size();
     } else if (!decode_base64(std::string_view(uri).substr(comma + 1), found->second)) {
       fail("buffer " + std::to_string(number) + " is no base64");
     }
@@ -180,25 +173,33 @@ class GltfReader {
   };
   static std::uint64_t size_of(std::uint64_t kind) { return kind < 5122 ? 1 : kind < 5124 ? 2 : 4; }
 
+  const Json& view_of(const Json& of, const std::string& name) const {
+    if (!of.contains("bufferView")) fail(name + " names no bufferView");
+    return list(json_, "bufferViews")[index(of["bufferView"], "bufferViews")];
+  }
+  std::string_view bytes_of(const Json& view, const std::string& name) {
+    if (!view.is_object() || !view.contains("buffer")) fail("a bufferView names no buffer");
+    const std::string_view all = buffer(index(view["buffer"], "buffers"));
+    const std::uint64_t from = whole(view, "byteOffset", 0), length = whole(view, "byteLength", 0);
+    if (from > all.size() || length > all.size() - from) fail(name + " lies outside its buffer");
+    return all.substr(from, length);
+  }
+
   Numbers numbers_in(const Json& of, std::uint64_t kind, std::uint64_t count, std::uint64_t parts,
                      const std::string& name) {
     if (kind < 5120 || kind > 5126 || kind == 5124)
       fail(name + " has numbers of kind " + std::to_string(kind));
-    if (!of.contains("bufferView")) fail(name + " names no bufferView");
-    const Json& view = list(json_, "bufferViews")[index(of["bufferView"], "bufferViews")];
-    if (!view.is_object() || !view.contains("buffer")) fail("a bufferView names no buffer");
-    const std::string_view all = buffer(index(view["buffer"], "buffers"));
-    const std::uint64_t from = whole(view, "byteOffset", 0), length = whole(view, "byteLength", 0),
-                        skip = whole(of, "byteOffset", 0), row = parts * size_of(kind);
-    if (from > all.size() || length > all.size() - from || skip > length)
-      fail(name + " lies outside its buffer");
+    const Json& view = view_of(of, name);
+    const std::string_view all = bytes_of(view, name);
+    const std::uint64_t skip = whole(of, "byteOffset", 0), row = parts * size_of(kind);
+    if (skip > all.size()) fail(name + " lies outside its buffer");
     const std::uint64_t stride = whole(view, "byteStride", row);
     if (stride < row || stride > 4096)
       fail("a byteStride of " + std::to_string(stride) + " is not one");
-    const std::uint64_t left = length - skip;
+    const std::uint64_t left = all.size() - skip;
     if (count > 0 && (left < row || (left - row) / stride < count - 1))
       fail(name + " has fewer numbers than it says");
-    return {all.substr(from + skip, left), count, stride, kind, parts};
+    return {all.substr(skip), count, stride, kind, parts};
   }
 
   /// The numbers of an accessor, `parts` after each other.
@@ -222,7 +223,7 @@ class GltfReader {
     } else {
       // Zeros; of those that nothing packs there are no more than bytes.
       if (!sparse) fail(name + " has no numbers");
-      if (count > size_) fail(name + " has fewer numbers than it says");
+      if (count > repeats_.bytes) fail(name + " has fewer numbers than it says");
       found.resize(count * parts);
     }
     if (!sparse) return found;
@@ -233,6 +234,7 @@ class GltfReader {
     if (!is_there("indices") || !is_there("values"))
       fail(name + " is sparse without indices and values");
     const std::uint64_t some = whole(other, "count", 0);
+    take_room(some);
     const Json &where = other["indices"], &what = other["values"];
     const Numbers at = numbers_in(where, whole(where, "componentType", 0), some, 1, name);
     take(numbers_in(what, kind, some, parts, name), [&](std::uint64_t i) {
@@ -257,49 +259,39 @@ class GltfReader {
     return found;
   }
 
-  Matrix placed(const Json& node) const {
-    Matrix m = identity;
+  Affine placed(const Json& node) const {
+    Affine m;
     if (const auto given = numbers(node, "matrix", 16); !given.empty()) {
-      std::copy(given.begin(), given.end(), m.begin());
+      for (std::size_t i = 0; i < 16; ++i)
+        if (i % 4 < 3) m.to[i / 4][i % 4] = given[i];
       return m;
     }
     if (const auto q = numbers(node, "rotation", 4); !q.empty()) {
       const double x = q[0], y = q[1], z = q[2], w = q[3];
-      m = {1 - 2 * (y * y + z * z),
-           2 * (x * y + z * w),
-           2 * (x * z - y * w),
-           0,
-           2 * (x * y - z * w),
-           1 - 2 * (x * x + z * z),
-           2 * (y * z + x * w),
-           0,
-           2 * (x * z + y * w),
-           2 * (y * z - x * w),
-           1 - 2 * (x * x + y * y),
-           0,
-           0,
-           0,
-           0,
-           1};
+      m.to[0] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)};
+      m.to[1] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)};
+      m.to[2] = {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)};
     }
     if (const auto scale = numbers(node, "scale", 3); !scale.empty())
       for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t row = 0; row < 3; ++row) m[4 * k + row] *= scale[k];
+        for (double& x : m.to[k]) x *= scale[k];
     if (const auto shift = numbers(node, "translation", 3); !shift.empty())
-      for (std::size_t k = 0; k < 3; ++k) m[12 + k] = shift[k];
+      std::copy(shift.begin(), shift.end(), m.to[3].begin());
     return m;
   }
 
-  void add_node(std::size_t number, const Matrix& above, std::size_t depth) {
+  void add_node(std::size_t number, const Affine& above, std::size_t depth) {
     const Json& node = list(json_, "nodes")[number];
-    // A tree is never this deep or this large; a circle is.
-    if (depth > 1000 || ++visited_ > 1'000'000) fail("its nodes go round in a circle");
-    const Matrix m = product(above, placed(node));
+    repeats_.take_room(1, depth, name_);
+    const Affine m = above.after(placed(node));
     if (node.is_object() && node.contains("mesh")) add_mesh(index(node["mesh"], "meshes"), m);
     for (const Json& child : list(node, "children")) add_node(index(child, "nodes"), m, depth + 1);
   }
 
-  void add_mesh(std::size_t number, const Matrix& m) {
+  void take_room(std::size_t more) { repeats_.take_room(more, 0, name_); }
+
+  void add_mesh(std::size_t number, const Affine& m) {
+    Mixed mesh;
     // Primitives of a mesh may share their vertices.
     std::map<std::size_t, std::array<std::size_t, 2>> first_of;  // and how many
     for (const Json& primitive : list(list(json_, "meshes")[number], "primitives")) {
@@ -308,36 +300,53 @@ class GltfReader {
         fail("a primitive has no POSITION");
       const Json& where = primitive["attributes"]["POSITION"];
       const std::size_t place = index(where, "accessors");
-      const auto known = first_of.find(place);
-      if (known == first_of.end()) {
-        first_of[place] = {cells_.positions.size(), 0};
-        add_points(accessor(where, "VEC3", 3), m);
-        first_of[place][1] = cells_.positions.size() - first_of[place][0];
+      const Json& positions = list(json_, "accessors")[place];
+      // Where Draco is not needed the same numbers are there unpacked.
+      if (primitive.contains("extensions") && primitive["extensions"].contains(draco) &&
+          (needs_draco_ || !positions.contains("bufferView"))) {
+        add_packed(primitive["extensions"][draco], positions, mesh);
+        continue;
       }
-      add_primitive(primitive, first_of[place][0], first_of[place][1]);
+      const auto [known, added] = first_of.try_emplace(place);
+      if (added) {
+        const std::vector<double> at = accessor(where, "VEC3", 3);
+        take_room(at.size() / 3);
+        known->second = {mesh.positions.size(), at.size() / 3};
+        for (std::size_t i = 0; i < at.size(); i += 3)
+          mesh.positions.push_back({at[i], at[i + 1], at[i + 2]});
+      }
+      add_primitive(primitive, known->second[0], known->second[1], mesh);
     }
+    append(cells_, mesh, m, name_);
   }
 
-  void add_points(const std::vector<double>& at, const Matrix& m) {
-    if (at.size() / 3 >= most_vertices - cells_.positions.size())
-      fail("more points than 32 bits count");
-    for (std::size_t i = 0; i < at.size(); i += 3) {
-      std::array<double, 3> out{};
-      for (std::size_t row = 0; row < 3; ++row) {
-        out[row] = m[12 + row];
-        for (std::size_t k = 0; k < 3; ++k) out[row] += m[4 * k + row] * at[i + k];
-        if (!std::isfinite(out[row]))
-          fail("point " + std::to_string(i / 3) + " has a coordinate that is not finite");
-      }
-      cells_.positions.push_back(out);
-    }
+  void add_packed(const Json& packed, const Json& positions, Mixed& mesh) {
+    const std::string_view bytes = bytes_of(view_of(packed, draco), draco);
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    const std::uint64_t id = whole(packed.at("attributes"), "POSITION", most + 1);
+    if (id > most) fail("names no POSITION that Draco packed");
+    const bool normalized = positions.contains("normalized") && positions["normalized"] == true;
+    // Nodes share what is decoded once.
+    auto [found, added] = unpacked_.try_emplace({bytes.data(), bytes.size(), id, normalized});
+    const Mixed& part = found->second;
+    if (added)
+      found->second =
+          parse_draco(bytes, name_, DracoPosition{static_cast<std::uint32_t>(id), normalized});
+    if (const std::uint64_t count = whole(positions, "count", part.positions.size());
+        count != part.positions.size())
+      fail("an accessor has " + std::to_string(count) + " points, but Draco packed " +
+           std::to_string(part.positions.size()));
+    own_ = false;  // Draco cuts seams, too
+    take_room(part.positions.size() + part.triangles.size());
+    append(mesh, part, {}, name_);
   }
 
-  void add_primitive(const Json& primitive, std::size_t first, std::uint64_t points) {
+  void add_primitive(const Json& primitive, std::size_t first, std::uint64_t points, Mixed& mesh) {
     const std::uint64_t mode = whole(primitive, "mode", 4);
     std::optional<std::vector<double>> indices;
     if (primitive.contains("indices")) indices = accessor(primitive["indices"], "SCALAR", 1);
-    const std::uint64_t count = indices ? indices->size() : points;
+    const std::uint64_t corners = indices ? indices->size() : points;
+    take_room(corners);
     const auto corner = [&](std::uint64_t i) {
       const double v = indices ? (*indices)[i] : static_cast<double>(i);
       if (!(v >= 0 && v < static_cast<double>(points) && v == std::floor(v)))
@@ -345,74 +354,46 @@ class GltfReader {
       return static_cast<std::uint32_t>(first + static_cast<std::size_t>(v));
     };
     const auto line = [&](std::uint64_t a, std::uint64_t b) {
-      cells_.edges.push_back({corner(a), corner(b)});
+      mesh.edges.push_back({corner(a), corner(b)});
     };
     const auto triangle = [&](std::uint64_t a, std::uint64_t b, std::uint64_t c) {
-      cells_.triangles.push_back({corner(a), corner(b), corner(c)});
+      mesh.triangles.push_back({corner(a), corner(b), corner(c)});
     };
     switch (mode) {
       case 0:
         return;
       case 1:
-        for (std::uint64_t i = 1; i < count; i += 2) line(i - 1, i);
+        for (std::uint64_t i = 1; i < corners; i += 2) line(i - 1, i);
         return;
       case 2:
       case 3:
-        for (std::uint64_t i = 1; i < count; ++i) line(i - 1, i);
-        if (mode == 2 && count > 2) line(count - 1, 0);
+        for (std::uint64_t i = 1; i < corners; ++i) line(i - 1, i);
+        if (mode == 2 && corners > 2) line(corners - 1, 0);
         return;
       case 4:
-        for (std::uint64_t i = 2; i < count; i += 3) triangle(i - 2, i - 1, i);
+        for (std::uint64_t i = 2; i < corners; i += 3) triangle(i - 2, i - 1, i);
         return;
       case 5:
-        for (std::uint64_t i = 2; i < count; ++i)
+        for (std::uint64_t i = 2; i < corners; ++i)
           triangle(i - 2, i % 2 == 0 ? i - 1 : i, i % 2 == 0 ? i : i - 1);
         return;
       case 6:
-        for (std::uint64_t i = 2; i < count; ++i) triangle(0, i - 1, i);
+        for (std::uint64_t i = 2; i < corners; ++i) triangle(0, i - 1, i);
         return;
       default:
         fail("primitives of mode " + std::to_string(mode) + " are not read");
     }
   }
 
-  // Vertices at one place become the first of them. Triangles that strips repeat a corner in are no
-  // triangles.
-  void weld() {
-    const auto& p = cells_.positions;
-    std::vector<std::uint32_t> order(p.size()), becomes(p.size());
-    for (std::uint32_t v = 0; v < order.size(); ++v) order[v] = v;
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return p[a] != p[b] ? p[a] < p[b] : a < b; });
-    for (std::size_t i = 0; i < order.size(); ++i)
-      becomes[order[i]] =
-          i > 0 && p[order[i]] == p[order[i - 1]] ? becomes[order[i - 1]] : order[i];
-    std::vector<std::array<double, 3>> kept;
-    std::vector<std::uint32_t> number(p.size());
-    for (std::uint32_t v = 0; v < p.size(); ++v)
-      if (becomes[v] == v) {
-        number[v] = static_cast<std::uint32_t>(kept.size());
-        kept.push_back(p[v]);
-      }
-    const auto renumber = [&](auto& rows) {
-      for (auto& row : rows)
-        for (std::uint32_t& v : row) v = number[becomes[v]];
-    };
-    renumber(cells_.edges);
-    renumber(cells_.triangles);
-    cells_.positions = std::move(kept);
-    std::erase_if(cells_.triangles,
-                  [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[0] == t[2]; });
-  }
-
   std::string_view name_;
   const GltfFiles& beside_;
-  std::uint64_t size_;  ///< of all files
+  Repeats repeats_;  ///< of nodes, points and corners in the bytes of all files
   Json json_;
   std::optional<std::string_view> binary_;
   std::map<std::size_t, std::string> decoded_;
-  bool own_ = false;
-  std::size_t visited_ = 0;
+  /// What Draco packed in these bytes: where, how many, which attribute, normalized.
+  std::map<std::tuple<const char*, std::size_t, std::uint64_t, bool>, Mixed> unpacked_;
+  bool own_ = false, needs_draco_ = false;
   Mixed cells_;
 };
 

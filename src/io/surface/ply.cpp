@@ -1,6 +1,5 @@
 // Stanford PLY: its vertices, faces, triangle strips and edges.
 
-#include <optional>
 #include <string>
 
 #include <plexway/io/triangles.hpp>

@@ -163,10 +163,26 @@ inline const PlyProperty* find_property(const PlyElement& element, std::string_v
   throw InputError(std::string(name) + ":" + std::to_string(line) + ": " + cause);
 }
 
-/// The element 'vertex' of a header and its coordinates, checked.
-struct PlyVertex {
-  const PlyElement* element = nullptr;
+/// Three numbers of an element, such as coordinates; `names` are for messages.
+struct PlyTriple {
   std::array<const PlyProperty*, 3> axes{};
+  const std::string_view* names = axis_names;
+
+  /// Takes the property into `triple` if it is one of them.
+  template <class Source>
+  bool take(Source& source, const PlyProperty& property, std::array<double, 3>& triple) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (&property != axes[k]) continue;
+      triple[k] = source.real(property.type, names[k]);
+      return true;
+    }
+    return false;
+  }
+};
+
+/// The element 'vertex' of a header and its coordinates, checked.
+struct PlyVertex : PlyTriple {
+  const PlyElement* element = nullptr;
 
   PlyVertex(const PlyHeader& header, std::string_view name) {
     for (const auto& other : header.elements)
@@ -181,19 +197,6 @@ struct PlyVertex {
     }
     if (element->count >= most_vertices)
       fail_ply_header(name, element->line, "more vertices than 32 bits count");
-  }
-
-  /// Takes the property into `position` if it is one of the axes.
-  template <class Source>
-  bool take(Source& source, const PlyProperty& property, std::array<double, 3>& position) const {
-    constexpr std::array<std::string_view, 3> names = {"coordinate x", "coordinate y",
-                                                       "coordinate z"};
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (&property != axes[k]) continue;
-      position[k] = source.real(property.type, names[k]);
-      return true;
-    }
-    return false;
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -59,6 +60,12 @@ class Faces {
 
 /// The last 32-bit number is left free for "none".
 inline constexpr std::uint64_t most_vertices = std::numeric_limits<std::uint32_t>::max();
+
+/// No file of so many bytes is worth more points or cells than this. One that repeats its parts
+/// more often, or that names a higher vertex, is not what it seems.
+constexpr std::uint64_t most_elements(std::uint64_t bytes) {
+  return std::min(most_vertices, (std::uint64_t{1} << 24) + 64 * bytes);
+}
 
 /// What is wrong with a cell that names a vertex the file does not have. Both as the file counts.
 inline std::string bad_corner(std::string_view cell, std::int64_t number, std::int64_t vertex,

@@ -104,12 +104,8 @@ constexpr std::size_t preamble = 84;  // 80 bytes of anything, then the number o
 constexpr std::size_t facet_size = 50;
 
 bool same_word(std::string_view field, std::string_view lower) {
-  if (field.size() != lower.size()) return false;
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    const char c = field[i];
-    if ((c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c) != lower[i]) return false;
-  }
-  return true;
+  return std::equal(field.begin(), field.end(), lower.begin(), lower.end(),
+                    [](char a, char b) { return lower_case(a) == b; });
 }
 
 /// Binary if the size fits the number of facets it states, whatever it starts with: binary files

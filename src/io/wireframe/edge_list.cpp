@@ -17,7 +17,7 @@ class EdgeListReader {
  public:
   EdgeListReader(std::string_view text, std::string_view name) : in_(text, name), name_(name) {
     // Vertices take memory later on. A file of a few lines must not ask for gigabytes.
-    most_ = std::min<std::uint64_t>(most_vertices, (std::uint64_t{1} << 24) + 64 * text.size());
+    most_ = most_elements(text.size());
   }
 
   Edges read() && {

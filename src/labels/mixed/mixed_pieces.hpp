@@ -7,7 +7,6 @@
 #include <memory>
 #include <span>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <plexway/mixed/mixed_complex.hpp>
@@ -226,7 +225,7 @@ class MixedWire final : public MixedPiece<Real> {
 
   PropagateStatistics add(std::span<const MixedSource> sources, const PropagateOptions& options,
                           bool& complete) override {
-    WirePropagation<Real, WireStep<Real>, true> propagation(wireframe_, workspace_, options);
+    WirePropagation<Real, true> propagation(wireframe_, workspace_, options);
     propagation.run(workspace_.front, [&](auto& front) {
       for (const MixedSource& source : sources) propagation.seed(source.at, source.number, front);
     });

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <span>
 #include <type_traits>
@@ -13,7 +12,7 @@
 #include "complexes/partition/cut.hpp"
 #include "labels/label_memory.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What a piece posts in one superstep, peer by peer. Plain data, so that it may as well be sent.
 class Outbox {
@@ -124,4 +123,4 @@ Real post_offers(std::vector<Message>& messages, const CutPiece& piece, const Pi
   return least;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -9,7 +9,7 @@
 
 #include "complexes/partition/cut.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The triangles of a piece by its numbers: its own, ghosts, and a sentinel. keeps(f, e): is all
 /// that lies around edge e of a ghost f here? Its other edges are made boundaries.
@@ -79,4 +79,4 @@ void number_vertices(const TriangleMesh<Real>& mesh, const Cut& cut, Patches& pa
   }
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

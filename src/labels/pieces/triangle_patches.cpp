@@ -6,7 +6,7 @@
 #include "complexes/partition/partition.hpp"
 #include "labels/pieces/piece_records.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 /// Visits the triangles over the edges of one.
@@ -48,7 +48,7 @@ Partition partition_of(const TriangleMesh<Real>& mesh, std::size_t size) {
 
 template <class Real>
 TrianglePatches<Real>::TrianglePatches(const TriangleMesh<Real>& mesh, std::size_t size, Deal deal)
-    : cut_(plexway::cut(partition_of(mesh, size), neighbours_of(mesh))),
+    : cut_(detail::cut(partition_of(mesh, size), neighbours_of(mesh))),
       patches_(cut_.pieces.size()) {
   deal.each(count(), [&](std::size_t p) { take_records(mesh, static_cast<Index>(p)); });
   number_vertices(mesh, cut_, patches_);
@@ -95,4 +95,4 @@ template class TrianglePatches<double>;
 template Partition partition_of(const TriangleMesh<float>&, std::size_t);
 template Partition partition_of(const TriangleMesh<double>&, std::size_t);
 
-}  // namespace plexway
+}  // namespace plexway::detail

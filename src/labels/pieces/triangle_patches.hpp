@@ -14,7 +14,7 @@
 #include "labels/piece_memory.hpp"
 #include "labels/pieces/mail.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Visits the triangles over edge e of triangle f, until visit(triangle) says true. Did it?
 template <class Real, class Visit>
@@ -110,4 +110,4 @@ extern template struct TriangleRoom<double>;
 extern template class TrianglePatches<float>;
 extern template class TrianglePatches<double>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <span>
 
 #include <plexway/common/ids.hpp>
 #include <plexway/solve/options.hpp>
@@ -16,7 +15,7 @@
 #include "labels/surface/triangle_spread.hpp"
 #include "labels/wavefront.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The front inside a piece: what is offered to ghosts is their own piece's to find out.
 template <class Real, class SimplexLabel, bool kLabels>
@@ -247,4 +246,4 @@ class TrianglePiece {
   PropagateStatistics outside_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -15,7 +14,7 @@
 #include "labels/pieces/mail.hpp"
 #include "labels/wireframe/wire_spread.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// An offer to a vertex of another piece.
 template <class Real>
@@ -61,12 +60,12 @@ struct WirePieces final : KeptPieces {
 
 /// A range of a wireframe's vertices. Records and labels are the whole's; its own labels only this
 /// piece reads or writes, and what it offers to others is a message. Not to be moved.
-template <class Real, class Step, bool kLabels>
+template <class Real, bool kLabels>
 class WirePiece {
  public:
   using Number = Real;
   using Message = WireMessage<Real>;
-  using Spread = WireSpread<Real, Step, kLabels>;
+  using Spread = WireSpread<Real, kLabels>;
 
   /// `label` of all vertices; `spread` over them; `step` of the queues; after `patience` looks
   /// nearest first.
@@ -167,4 +166,4 @@ class WirePiece {
   std::size_t expansions_ = 0;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

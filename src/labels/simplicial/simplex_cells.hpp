@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 #include <plexway/simplicial/simplicial_complex.hpp>
@@ -42,7 +41,7 @@ class SimplexCells<TetMesh<Real_>> {
     if (!embedded_) return lengths_[t][edge];
     const auto d = points_[tets_[t].corner[tet_edge_ends[edge][1]]] -
                    points_[tets_[t].corner[tet_edge_ends[edge][0]]];
-    return dot(d, d);
+    return static_cast<Real>(dot(d, d));
   }
   /// Lengths alone that nothing is in the way of: what a line misses a face by is how space is bent
   /// there, not a notch that it would cut off.
@@ -65,8 +64,8 @@ class SimplexCells<TetMesh<Real_>> {
   }
 
  private:
-  const TetRecord<Real>* tets_;
-  const Vector3<Real>* points_;
+  const TetRecord* tets_;
+  const Vector3<double>* points_;
   const std::array<Real, 6>* lengths_;
   Index sentinel_;
   bool embedded_;

@@ -5,7 +5,7 @@
 
 #include "labels/label_memory.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What an N-simplex remembers under the plain step: the virtual source of the best path to its
 /// centre, as squared distances to its own vertices. No coordinates.
@@ -24,6 +24,11 @@ class SimplexLabels {
   SimplexLabel<Real, N>* reserve(std::size_t count) {
     return std::get<LabelStorage<SimplexLabel<Real, N>>>(storage_).reserve(count);
   }
+  /// Those that there is room for, or null.
+  template <int N>
+  [[nodiscard]] const SimplexLabel<Real, N>* labels() const {
+    return std::get<LabelStorage<SimplexLabel<Real, N>>>(storage_).labels.get();
+  }
   [[nodiscard]] std::size_t bytes() const {
     return std::apply([](const auto&... s) { return (s.bytes() + ...); }, storage_);
   }
@@ -34,4 +39,4 @@ class SimplexLabels {
       storage_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <span>
 
 #include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>

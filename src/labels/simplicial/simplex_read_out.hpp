@@ -9,12 +9,40 @@
 
 #include <plexway/source/point_source.hpp>
 
-#include "labels/changed_vertices.hpp"
+#include "labels/front.hpp"
 #include "labels/simplicial/simplex_cells.hpp"
+#include "labels/straight_lines.hpp"
 #include "labels/workspace_state.hpp"
 
 /// From labels in simplices to distances at vertices.
 namespace plexway::detail {
+
+/// Vertices whose neighbours must be looked at again, in the room of a front that has run empty. If
+/// that should not be enough, some are lost, and it says so.
+class ChangedVertices {
+ public:
+  explicit ChangedVertices(FrontStorage& storage)
+      : list_(storage.near.get()), capacity_(storage.capacity) {}
+
+  void clear() { count_ = 0, lost_ = false; }
+  void push(Index vertex) {
+    if (count_ < capacity_)
+      list_[count_++] = vertex;
+    else
+      lost_ = true;
+  }
+  bool pop(Index& vertex) {
+    if (count_ == 0) return false;
+    vertex = list_[--count_];
+    return true;
+  }
+  [[nodiscard]] bool lost() const { return lost_; }
+
+ private:
+  Index* list_;
+  std::size_t capacity_, count_ = 0;
+  bool lost_ = false;
+};
 
 /// The least that the simplices at a vertex offer; then the sources and the corners of simplices
 /// they lie in, exactly.
@@ -83,8 +111,8 @@ void relax_edges(const Domain& domain, WorkspaceState<Real>& workspace) {
 /// between. Where two simplices lie on one side of the facet that they share, a source unfolded
 /// over it is a mirror image, and the plain step, which judges a line of sight by centres, may
 /// measure to it past the facet: such a distance can only be wrong, and gets the line's length,
-/// which is nearer to the truth. Returns how many were below it by more than 1e-4. Cost: the
-/// coordinates of all vertices, times all sources.
+/// which is nearer to the truth. Returns how many were below it by more than `much_nearer`. Cost:
+/// the coordinates of all vertices, times all sources.
 template <class Domain, class Real>
 std::size_t raise_to_lines(const Domain& domain, std::span<const PointSource> sources,
                            WorkspaceState<Real>& workspace) {
@@ -117,11 +145,13 @@ std::size_t raise_to_lines(const Domain& domain, std::span<const PointSource> so
     Real& d = workspace.vertex[v];
     if (!(d < std::numeric_limits<Real>::infinity())) continue;
     const auto to = domain.coordinates(static_cast<Index>(v));
-    double least = std::numeric_limits<double>::infinity();
+    // Most are above that of their own source.
+    const Index own = workspace.vertex_source[v];
+    double least = own == none ? std::numeric_limits<double>::infinity() : line(to, own);
     for (std::size_t n = 0; n < sources.size() && static_cast<double>(d) < slack * least; ++n)
       least = std::min(least, line(to, n));
     if (!(static_cast<double>(d) < slack * least)) continue;
-    raised += static_cast<double>(d) < least * (1 - 1e-4);
+    raised += static_cast<double>(d) < least * (1 - much_nearer);
     d = static_cast<Real>(least);
   }
   return raised;

@@ -6,7 +6,7 @@
 
 #include <plexway/common/ids.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A vertex and a distance of it.
 template <class Real>
@@ -71,4 +71,4 @@ struct LoweringRooms {
   }
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

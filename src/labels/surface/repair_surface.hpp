@@ -9,10 +9,11 @@
 #include "labels/straight_lines.hpp"
 
 namespace plexway::surface {
+using namespace detail;
 
 /// What `repair` did.
 struct Repaired {
-  std::size_t raised = 0;   ///< vertices below the straight line, by more than 1e-4
+  std::size_t raised = 0;   ///< vertices below the straight line, by more than 1e-3
   std::size_t lowered = 0;  ///< vertices that got nearer by more than 1e-4
 };
 

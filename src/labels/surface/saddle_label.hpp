@@ -2,7 +2,7 @@
 
 #include "kernel/lanes.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What a triangle remembers under Visibility::saddles: the virtual source S of the best path to
 /// its centre, and the saddles nearest to the line of sight on either side.
@@ -19,4 +19,4 @@ struct SaddleLabel {
   [[nodiscard, gnu::always_inline]] Real distance() const { return h[1]; }
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,7 +6,7 @@
 
 #include "labels/surface/saddle_rule.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What labels say about any point of a triangle, and about where two fronts meet: SaddleRule for
 /// those who ask about labels rather than spread them.
@@ -115,8 +115,8 @@ class SaddleOffers : public SaddleRule<Real, Front> {
     if (p.source.h >= 0) {
       const auto c = Posed::Kernel::crossing(p.source, q);
       const bool left = c.x[0]<0, right = c.x[0]> t.length[edge] * c.w;
-      const bool lit = !(detail::left_of<Real>(p.source, p.limit[0], q) > 0) &&
-                       !(detail::left_of<Real>(p.source, p.limit[1], q) < 0);
+      const bool lit = !(left_of<Real>(p.source, p.limit[0], q) > 0) &&
+                       !(left_of<Real>(p.source, p.limit[1], q) < 0);
       if (!lit || (left && t.saddle(edge)) || (right && t.saddle(edge_after(edge))))
         return path_length<Real>(p, t.length[edge], q);
     }
@@ -171,4 +171,4 @@ class SaddleOffers : public SaddleRule<Real, Front> {
   }
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

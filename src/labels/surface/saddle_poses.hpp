@@ -7,7 +7,7 @@
 #include "labels/surface/saddle_label.hpp"
 #include "labels/surface/saddle_step.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Labels of triangles under Visibility::saddles as the step takes them, and back.
 template <class Real>
@@ -70,4 +70,4 @@ struct SaddlePoses {
   }
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

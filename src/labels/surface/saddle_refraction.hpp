@@ -19,9 +19,7 @@
 ///
 /// So each triangle beyond gets an S' of its own, and the ends of the edge as limits: outside this
 /// beam the path bends there, which is a path.
-namespace plexway {
-
-namespace detail {
+namespace plexway::detail {
 
 /// Where the path from S to q crosses an edge, measured on S's side: least |S s| + |scale s - q|.
 /// The sum is convex. Newton's steps, halving where they leave the bracket.
@@ -62,8 +60,6 @@ Real fermat_crossing(const typename PosedSaddles<Real>::Point& S,
   return s;
 }
 
-}  // namespace detail
-
 /// Takes a label, posed on the edge in the lengths of the triangle before, over it; `width` is the
 /// edge's length there. Returns the distance of the centre beyond, never infinite.
 template <class Real>
@@ -86,8 +82,8 @@ Real refract(PosedSaddles<Real>& label, const SaddleHinge<Real>& hinge, Real wid
       const Point limit = label.limit[hinge.pivot];
       const Real turn = Kernel::left_of(label.source, limit, pivot);
       if (is_limit(limit) && (hinge.pivot == 0 ? turn > 0 : turn < 0))
-        detail::give_up_source<Real>(label, limit);
-      detail::give_up_source<Real>(label, pivot);
+        give_up_source<Real>(label, limit);
+      give_up_source<Real>(label, pivot);
     }
     label.source.h = std::max(label.source.h, Real(0));
     // The lit part of the edge.
@@ -110,11 +106,11 @@ Real refract(PosedSaddles<Real>& label, const SaddleHinge<Real>& hinge, Real wid
       else
         high = std::clamp(at, Real(0), high);
     }
-    s = detail::fermat_crossing<Real>(S, centre, width, scale);
+    s = fermat_crossing<Real>(S, centre, width, scale);
     if (dark < 0 && s < low && is_limit(label.limit[0])) dark = 0;
     if (dark < 0 && s > high && is_limit(label.limit[1])) dark = 1;
     if (dark < 0 || bends == 2) break;
-    detail::give_up_source<Real>(label, Point(label.limit[dark]));
+    give_up_source<Real>(label, Point(label.limit[dark]));
   }
 
   const Point S = label.source;
@@ -160,4 +156,4 @@ Real refract(PosedSaddles<Real>& label, const SaddleHinge<Real>& hinge, Real wid
   return distance;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,13 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <span>
-#include <type_traits>
 
 #include <plexway/surface/detail/triangle_record.hpp>
 
@@ -17,7 +13,7 @@
 #include "labels/surface/saddle_step.hpp"
 #include "labels/surface/saddle_step_lanes.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Visibility::saddles on triangles: how labels get from one to the next.
 template <class Real, class Front>
@@ -394,4 +390,4 @@ class SaddleRule : public SaddlePoses<Real> {
   Real patience_ = 1;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -11,9 +11,7 @@
 /// One update under Visibility::saddles, hinge by hinge: the text of saddle_step.inl, which shaders
 /// compile as well. saddle_step_lanes.hpp does the common case of both hinges of a triangle at
 /// once; this is the rule it must agree with.
-namespace plexway {
-
-namespace kernel {
+namespace plexway::kernel {
 
 #include "kernel/text_begin.inl"
 
@@ -31,7 +29,9 @@ struct SaddleKernel : HingeKernel<Real_, 1> {
 
 #include "kernel/text_end.inl"
 
-}  // namespace kernel
+}  // namespace plexway::kernel
+
+namespace plexway::detail {
 
 /// A label under way to the next triangle.
 template <class Real>
@@ -48,8 +48,6 @@ struct PosedSaddles : kernel::SaddleKernel<Real>::PosedSaddles {
 template <class Real>
 using SaddleHinge = typename kernel::SaddleKernel<Real>::SaddleHinge;
 
-namespace detail {
-
 template <class Real>
 Real left_of(const typename PosedSaddles<Real>::Point& S,
              const typename PosedSaddles<Real>::Point& p,
@@ -61,8 +59,6 @@ template <class Real>
 void give_up_source(PosedSaddles<Real>& label, const typename PosedSaddles<Real>::Point& bend) {
   label = kernel::SaddleKernel<Real>::give_up_source(label, bend);
 }
-
-}  // namespace detail
 
 /// See saddle_step.inl.
 template <class Real>
@@ -79,4 +75,4 @@ Real cross_hinge(PosedSaddles<Real>& label, const SaddleHinge<Real>& hinge, bool
   return crossed.distance;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -4,7 +4,7 @@
 
 #include "labels/surface/saddle_step.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The step of saddle_step.hpp for both hinges by which a path leaves a triangle, at once.
 ///
@@ -192,4 +192,4 @@ class SaddleStepLanes {
   int rare_, bent_, wholly_dark_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <limits>
 #include <span>
 #include <utility>
@@ -15,7 +14,7 @@
 #include "labels/wavefront.hpp"
 #include "labels/workspace_state.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// One propagation over a surface from seeds to the last label, for any rule and front.
 template <class Real, class Rule, class Front, bool kLabels>
@@ -168,4 +167,4 @@ class TrianglePropagation {
   TriangleSpread<Real, Rule, Front> spread_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,7 +6,7 @@
 
 #include <plexway/surface/detail/triangle_record.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The hot loop of a propagation over triangles, for any rule and front.
 template <class Real, class Rule, class Front>
@@ -83,4 +83,4 @@ class TriangleSpread {
   std::size_t faces_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -12,16 +12,32 @@
 #include <plexway/source/point_source.hpp>
 #include <plexway/wireframe/wireframe.hpp>
 
-#include "complexes/common/number_range.hpp"
+#include "labels/finish.hpp"
 #include "labels/progress_counter.hpp"
 #include "labels/wireframe/wire_spread.hpp"
 #include "labels/workspace_state.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// How often the dual queue may look at each edge before nearest first takes over. Up to here it is
 /// the faster of the two: its expansions cost a quarter.
 inline constexpr std::size_t wire_patience = 4;
+
+/// Calls offer(vertex, distance) for a source at a vertex, or for the ends of the edge that it lies
+/// on: inside numbers and unit.
+template <class Real, class Offer>
+void offer_source(const Wireframe<Real>& wireframe, const PointSource& source, const Offer& offer) {
+  const double sigma = source.offset / wireframe.unit();
+  if (source.vertex != none) {
+    offer(wireframe.inside_vertex(source.vertex), sigma);
+    return;
+  }
+  const auto edge = wireframe.inside_edge(source.simplex);
+  const std::array<double, 4>& b = source.barycentric;
+  const double length = static_cast<double>(edge.length);
+  if (b[1] != 1) offer(edge.from, sigma + b[1] * length);
+  if (b[0] != 1) offer(edge.to, sigma + b[0] * length);
+}
 
 /// No vertex is reached.
 template <bool kLabels, class Real>
@@ -31,37 +47,22 @@ void start_wires(const Wireframe<Real>& wireframe, WorkspaceState<Real>& workspa
 }
 
 /// One propagation over a wireframe, for any front, from what the workspace has.
-template <class Real, class Step, bool kLabels>
+template <class Real, bool kLabels>
 class WirePropagation {
  public:
-  static constexpr Real infinity = std::numeric_limits<Real>::infinity();
-
   WirePropagation(const Wireframe<Real>& wireframe, WorkspaceState<Real>& workspace,
                   const PropagateOptions& options)
       : wireframe_(wireframe),
         options_(options),
-        label_(workspace.vertex.data()),
-        source_(workspace.vertex_source.data()),
-        spread_(wireframe, label_, source_, static_cast<Real>(options.radius / wireframe.unit())) {}
+        workspace_(workspace),
+        spread_(wireframe, workspace.vertex.data(), workspace.vertex_source.data(),
+                static_cast<Real>(options.radius / wireframe.unit())) {}
 
   template <class Front>
   void seed(const PointSource& source, Index number, Front& front) {
-    const double sigma = source.offset / wireframe_.unit();
-    if (source.vertex != none) {
-      seed_vertex(wireframe_.inside_vertex(source.vertex), sigma, number, front);
-      return;
-    }
-    const auto edge = wireframe_.inside_edge(source.simplex);
-    const std::array<double, 4>& b = source.barycentric;
-    const double length = static_cast<double>(edge.length);
-    if (b[1] != 1) seed_vertex(edge.from, sigma + b[1] * length, number, front);
-    if (b[0] != 1) seed_vertex(edge.to, sigma + b[0] * length, number, front);
-  }
-
-  /// A path of this length ends at a vertex (number inside); false if it knows a better one.
-  template <class Front>
-  bool seed_vertex(Index v, double distance, Index number, Front& front) {
-    return spread_.offer(v, static_cast<Real>(distance), number, front);
+    offer_source(wireframe_, source, [&](Index v, double distance) {
+      spread_.offer(v, static_cast<Real>(distance), number, front);
+    });
   }
 
   /// From what seed(front) adds until no label waits or the budget is spent, in the order of the
@@ -99,13 +100,12 @@ class WirePropagation {
   template <class Front>
   void hand_over(Front& front) const {
     for (std::size_t v = 0; v < wireframe_.vertex_count(); ++v)
-      if (std::signbit(label_[v])) front.push(static_cast<Index>(v), -label_[v]);
+      if (const Real label = workspace_.vertex[v]; std::signbit(label))
+        front.push(static_cast<Index>(v), -label);
   }
 
-  /// For other ways to spread: the labels, and what was done to them.
-  [[nodiscard]] Real* labels() const { return label_; }
-  [[nodiscard]] Index* sources() const { return source_; }
-  [[nodiscard]] const WireSpread<Real, Step, kLabels>& spread() const { return spread_; }
+  /// For other ways to spread, and what they did.
+  [[nodiscard]] const WireSpread<Real, kLabels>& spread() const { return spread_; }
   void account(const PropagateStatistics& done, bool out_of_budget) {
     granted_ += done.expansions;
     others_.updates += done.updates;
@@ -122,27 +122,7 @@ class WirePropagation {
   template <class Scheduler>
   void read_out(std::span<const PointSource> sources, const Scheduler& scheduler,
                 DistanceField<Real>& field) const {
-    NumberRange<Real>::check_unit(wireframe_.unit());
-    const std::size_t n = wireframe_.vertex_count();
-    field.distance.resize(n);
-    field.label.resize(kLabels ? n : 0);
-    const Real unit = static_cast<Real>(wireframe_.unit());
-    const Real radius = static_cast<Real>(options_.radius);
-    const std::span<const Index> inside = wireframe_.vertices_inside();
-    scheduler.over(n, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
-        const Real d = std::abs(label_[inside[v]]) * unit;
-        const bool in = d <= radius;
-        field.distance[v] = in ? d : infinity;
-        if constexpr (kLabels) field.label[v] = in && d < infinity ? source_[inside[v]] : none;
-      }
-    });
-    // An offset survives scaling exactly.
-    for (const PointSource& s : sources)
-      if (s.vertex != none && s.offset <= options_.radius)
-        field.distance[s.vertex] = std::min(field.distance[s.vertex], static_cast<Real>(s.offset));
-    field.complete = !out_of_budget_;
-    field.statistics = statistics();
+    finish<Real, kLabels>(wireframe_, sources, options_, *this, workspace_, scheduler, field);
   }
 
  private:
@@ -161,12 +141,11 @@ class WirePropagation {
 
   const Wireframe<Real>& wireframe_;
   const PropagateOptions& options_;
-  Real* label_;
-  Index* source_;
-  WireSpread<Real, Step, kLabels> spread_;
+  const WorkspaceState<Real>& workspace_;
+  WireSpread<Real, kLabels> spread_;
   std::size_t left_ = 0, granted_ = 0;
   PropagateStatistics others_;  // what others did, without expansions
   bool out_of_budget_ = false;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

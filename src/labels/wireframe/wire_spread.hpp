@@ -6,34 +6,9 @@
 
 #include <plexway/wireframe/wireframe.hpp>
 
-#include "kernel/hinge.hpp"
 #include "labels/front.hpp"
 
-namespace plexway {
-
-/// An edge hands its virtual source on over a vertex: the K = 0 hinge kernel, word for word. The
-/// hinge is a point, so no straight line passes through: every path bends there, and the new
-/// virtual source is the vertex itself. What all edges at a vertex learn from each other is thus a
-/// single number, the sigma of that bend: the label belongs to the hinge.
-template <class Real>
-struct KernelWireStep {
-  /// Sigma at the far end of an edge of this length from sigma at its near end.
-  static Real over(Real sigma, Real length) {
-    using Kernel = kernel::HingeKernel<Real, 0>;
-    const Real none_in_a_point[1] = {0};
-    const Real squared[1] = {length * length};
-    const auto pose = Kernel::make_pose(none_in_a_point);
-    const auto S = Kernel::locate(pose, squared);
-    return Kernel::carry(pose, S, sigma, S, false, 0).sigma;
-  }
-};
-
-/// The same, with what K = 0 leaves of it: walk to the hinge. (That this is the relaxation of
-/// Dijkstra, A note on two problems in connexion with graphs, 1959, is how the field knows it.)
-template <class Real>
-struct WireStep {
-  static Real over(Real sigma, Real length) { return sigma + length; }
-};
+namespace plexway::detail {
 
 /// To one who has all vertices.
 struct AllVertices {
@@ -42,10 +17,15 @@ struct AllVertices {
   static void tell(Index, Real, Index) {}
 };
 
-/// Labels of a wireframe spread along its arcs. They sit at the hinges, the vertices. A label that
+/// Labels of a wireframe spread along its arcs. An edge hands its virtual source on over a vertex:
+/// the hinge kernel with K = 0. No straight line passes through a point, so every path bends there,
+/// and what is left of the kernel is to walk to the hinge: sigma + length. (That this is the
+/// relaxation of Dijkstra, A note on two problems in connexion with graphs, 1959, is how the field
+/// knows it.) What all edges at a vertex learn from each other is that single number, so the label
+/// belongs to the vertex. A label that
 /// waits to be expanded is kept with its sign turned: what an offer must look up, distance and
 /// whether it waits, is then one number.
-template <class Real, class Step, bool kLabels>
+template <class Real, bool kLabels>
 class WireSpread {
  public:
   static constexpr Real infinity = std::numeric_limits<Real>::infinity();
@@ -109,7 +89,7 @@ class WireSpread {
       const Index first = begin[v], last = begin[v + 1];
       for (Index k = first; k < last; ++k) {
         const Index to = arcs[k].to;
-        const Real offer = Step::over(sigma, arcs[k].length);
+        const Real offer = sigma + arcs[k].length;
         if (!where.has(to)) [[unlikely]] {
           where.tell(to, offer, kLabels ? source_[v] : 0);
           continue;
@@ -183,4 +163,4 @@ class WireFront {
   bool sorted_ = false;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -17,7 +17,7 @@
 #include <plexway/source/source.hpp>
 #include <plexway/support.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Throws UsageError "NAME: sentence" unless it is yes; the name is an option's, or a file's.
 inline void require(const std::string& name, Support support) {
@@ -163,4 +163,4 @@ std::string metric_file(const MetricArgument& argument);
 std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument,
                                                const AnyShape& domain, Jumps jumps);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <set>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include <plexway/error.hpp>
@@ -16,6 +15,10 @@
 #include "io/number_rows.hpp"
 
 namespace plexway {
+using namespace detail;
+
+namespace detail {
+
 namespace {
 
 enum class MaskKind { vertices, simplices, labels, regions };
@@ -109,6 +112,8 @@ std::shared_ptr<const Mask> read_mask(const MaskArgument& argument, const AnySha
   return argument.text.empty() ? nullptr : read_mask(argument.text, domain, Spelling::flags);
 }
 
+}  // namespace detail
+
 std::shared_ptr<const Mask> read_mask(const std::string& text, const AnyShape& domain,
                                       Spelling spelling) {
   const ParsedMask asked = parse_mask(text, spelling);
@@ -129,11 +134,15 @@ std::shared_ptr<const Mask> read_mask(const std::string& text, const AnyShape& d
                    domain.file().string());
 }
 
+namespace detail {
+
 void require_open(const Mask* mask, const AnyShape& domain, std::span<const PointSource> points) {
   require_all(mask, domain, points);
 }
 void require_open(const Mask* mask, const AnyShape& domain, std::span<const Source> sources) {
   require_all(mask, domain, sources);
 }
+
+}  // namespace detail
 
 }  // namespace plexway

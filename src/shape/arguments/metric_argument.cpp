@@ -11,10 +11,12 @@
 #include "io/number_rows.hpp"
 #include "shape/words.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 enum class MetricSyntax { tensor, vertex_tensor, speed, regions, lengths };
+constexpr std::array<std::string_view, 5> metric_names = {"tensor", "vertex-tensor", "speed",
+                                                          "regions", "lengths"};
 
 struct ParsedMetric {
   MetricSyntax kind;
@@ -25,23 +27,23 @@ ParsedMetric parse_metric(const MetricArgument& argument) {
   const std::size_t colon = argument.text.find(':');
   const std::string kind = argument.text.substr(0, colon);
   const std::string file = colon == argument.text.npos ? "" : argument.text.substr(colon + 1);
-  if (!file.empty()) {
-    if (kind == "tensor") return {MetricSyntax::tensor, file};
-    if (kind == "vertex-tensor") return {MetricSyntax::vertex_tensor, file};
-    if (kind == "speed") return {MetricSyntax::speed, file};
-    if (kind == "regions") return {MetricSyntax::regions, file};
-    if (kind == "lengths") return {MetricSyntax::lengths, file};
-  }
+  const auto name = std::find(metric_names.begin(), metric_names.end(), kind);
+  if (!file.empty() && name != metric_names.end())
+    return {static_cast<MetricSyntax>(name - metric_names.begin()), file};
   throw UsageError(
       "--metric '" + argument.text +
       "': write tensor:FILE, vertex-tensor:FILE, speed:FILE, regions:FILE or lengths:FILE");
 }
 
-void check_rows(const std::string& file, std::size_t rows, std::size_t needed,
-                std::string_view what) {
-  if (rows != needed && rows != 1)
-    throw InputError(file + ": " + std::to_string(rows) + " rows for " + counted(needed, what) +
+template <class Row>
+std::vector<Row> one_each(const std::string& file, std::vector<Row> rows, std::size_t needed,
+                          std::string_view what) {
+  if (rows.size() != needed && rows.size() != 1)
+    throw InputError(file + ": " + std::to_string(rows.size()) + " rows for " +
+                     counted(needed, what) +
                      ": write one each, in the order of the input, or one for all");
+  rows.resize(needed, rows[0]);
+  return rows;
 }
 
 std::vector<metric::Tensor> read_tensors(const std::string& file, std::size_t needed,
@@ -62,9 +64,7 @@ std::vector<metric::Tensor> read_tensors(const std::string& file, std::size_t ne
     else
       fail_at(file, row, n.size() == 1 ? "a speed must be above 0" : "write " + row_text);
   }
-  check_rows(file, rows.size(), needed, what);
-  tensors.resize(needed, tensors[0]);
-  return tensors;
+  return one_each(file, std::move(tensors), needed, what);
 }
 
 std::vector<double> read_speeds(const std::string& file, std::size_t needed,
@@ -76,9 +76,7 @@ std::vector<double> read_speeds(const std::string& file, std::size_t needed,
     if (!(row.numbers[0] > 0)) fail_at(file, row, "a speed must be above 0");
     speeds.push_back(row.numbers[0]);
   }
-  check_rows(file, rows.size(), needed, what);
-  speeds.resize(needed, speeds[0]);
-  return speeds;
+  return one_each(file, std::move(speeds), needed, what);
 }
 
 // Of each simplex as its region in the domain's own file has it.
@@ -166,4 +164,4 @@ std::shared_ptr<const MeasuredLengths> measure(const MetricArgument& argument,
   }
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

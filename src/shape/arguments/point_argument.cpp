@@ -14,7 +14,7 @@
 #include "shape/warnings/survey.hpp"
 #include "shape/words.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr std::string_view vertex_prefix = "vertex:";
@@ -27,7 +27,7 @@ constexpr std::string_view point_prefix = "point:";
 
 // Any integer: one that does not fit is out of range in every file, and not a slip of the syntax.
 std::optional<Index> parse_id(std::string_view text) {
-  if (text.substr(0, 1) == "-") text.remove_prefix(1);
+  if (text.starts_with('-')) text.remove_prefix(1);
   if (text.empty() || text.find_first_not_of("0123456789") != text.npos) return std::nullopt;
   Index id = none;
   const char* const end = text.data() + text.size();
@@ -73,13 +73,13 @@ std::optional<std::array<double, 3>> parse_point(std::string_view text) {
 
 SourceArgument parse_source(const std::string& text, const std::string& role) {
   const std::string_view view = text;
-  if (view.substr(0, vertex_prefix.size()) == vertex_prefix) {
+  if (view.starts_with(vertex_prefix)) {
     const std::string_view number = view.substr(vertex_prefix.size());
     const auto id = parse_id(number);
     if (!id) malformed(text, role);
     return {text, number.front() == '-' ? none : *id, role};
   }
-  if (view.substr(0, point_prefix.size()) == point_prefix) {
+  if (view.starts_with(point_prefix)) {
     const auto point = parse_point(view.substr(point_prefix.size()));
     if (!point) malformed(text, role);
     return {text, *point, role};
@@ -170,10 +170,6 @@ std::vector<std::string> words_of(std::string_view line) {
   return words;
 }
 
-[[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& cause) {
-  throw InputError(file + ":" + std::to_string(line) + ": " + cause);
-}
-
 // A table as `farthest` writes it: x,y,z,vertex,simplex,b0,b1,b2,b3 and what else there is.
 std::vector<PointSource> read_table(const std::string& file, std::string_view text,
                                     const AnyShape& domain) {
@@ -192,29 +188,31 @@ std::vector<PointSource> read_table(const std::string& file, std::string_view te
       for (std::size_t i = 0; i < names.size(); ++i) {
         const auto found = std::find(words.begin(), words.end(), names[i]);
         if (found == words.end())
-          fail(file, 1,
-               "no column " + std::string(names[i]) +
-                   ": give a vertex a line, or a table of points as 'plexway farthest' writes it");
+          io::fail_at(
+              file, 1,
+              "no column " + std::string(names[i]) +
+                  ": give a vertex a line, or a table of points as 'plexway farthest' writes it");
         column[i] = static_cast<std::size_t>(found - words.begin());
       }
       continue;
     }
     if (words.size() == 1 && words[0].empty()) continue;
-    if (words.size() != width) fail(file, line, "the header has another number of columns");
+    if (words.size() != width) io::fail_at(file, line, "the header has another number of columns");
     std::array<double, 6> number{};
     for (std::size_t i = 0; i < number.size(); ++i) {
       const std::string& word = words[column[i]];
-      const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), number[i]);
-      if (error != std::errc{} || rest != word.data() + word.size() || !std::isfinite(number[i]))
-        fail(file, line, "not a number: '" + word.substr(0, 32) + "'");
+      const auto value = number_of(word);
+      if (!value) io::fail_at(file, line, "not a number: '" + word.substr(0, 32) + "'");
+      number[i] = *value;
     }
     const bool at_vertex = number[0] != -1;
     const double which = at_vertex ? number[0] : number[1];
     const std::size_t there = at_vertex ? domain.vertices() : domain.simplices();
     if (!(which >= 0) || which != std::floor(which) || !(which < static_cast<double>(there)))
-      fail(file, line,
-           std::string(at_vertex ? "vertex " : "simplex ") + words[column[at_vertex ? 0 : 1]] +
-               " is out of range: there are " + std::to_string(there));
+      io::fail_at(file, line,
+                  std::string(at_vertex ? "vertex " : "simplex ") +
+                      words[column[at_vertex ? 0 : 1]] + " is out of range: there are " +
+                      std::to_string(there));
     PointSource point;
     (at_vertex ? point.vertex : point.simplex) = static_cast<Index>(which);
     if (!at_vertex) point.barycentric = {number[2], number[3], number[4], number[5]};
@@ -250,4 +248,4 @@ std::vector<Index> read_vertex_list(const std::string& file, const AnyShape& dom
   return vertices;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,10 +1,7 @@
 #include "shape/arguments/arguments.hpp"
 
-#include <charconv>
 #include <cmath>
-#include <optional>
 #include <string_view>
-#include <system_error>
 
 #include <plexway/error.hpp>
 #include <plexway/shape/support.hpp>
@@ -14,7 +11,7 @@
 #include "shape/shape_state.hpp"
 #include "shape/words.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 const char* const source_set_help =
     "vertex:ID (0-based, file order), point:X,Y,Z (closest point of the domain),\n"
@@ -255,4 +252,4 @@ std::string describe_source_set(const AnyShape& domain, const SetArgument& argum
   return argument.offset > 0 ? text + " + " + short_number(argument.offset) : text;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,4 +1,4 @@
-#include "shape/errors/race.hpp"
+#include "shape/errors/measures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +9,14 @@
 #include <plexway/error.hpp>
 
 #include "shape/boundary.hpp"
-#include "shape/stopwatch.hpp"
+#include "shape/shape_state.hpp"
 
 #ifdef PLEXWAY_HAS_BOOST_GRAPH
 #include <plexway/boost_graph/dijkstra.hpp>
 #include <plexway/boost_graph/edge_graph.hpp>
 #endif
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 // A graph search starts at a vertex: for a point of a simplex at the nearest corner, nearly.
@@ -95,15 +95,13 @@ std::unique_ptr<EdgeDijkstra> make_edge_dijkstra(const AnyShape& domain, Precisi
     if (precision == Precision::float32) return std::make_unique<BoostDijkstra<float>>(shape);
     return std::make_unique<BoostDijkstra<double>>(shape);
   };
-  try {
+  return with_file_name(domain, [&] {
     const auto* surface = std::get_if<io::Triangles>(&domain.data());
     return surface != nullptr ? peer_of(*surface) : peer_of(edges_of(domain));
-  } catch (const InputError& error) {
-    throw InputError(domain.file().string() + ": " + error.what());
-  }
+  });
 }
 #else
 std::unique_ptr<EdgeDijkstra> make_edge_dijkstra(const AnyShape&, Precision) { return nullptr; }
 #endif
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,4 +1,4 @@
-#include "shape/errors/truth_file.hpp"
+#include "shape/errors/measures.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -11,9 +11,10 @@
 
 #include "io/file_bytes.hpp"
 #include "io/names.hpp"
+#include "io/number_rows.hpp"
 #include "io/text_scanner.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 std::string_view trimmed(std::string_view line) {
@@ -23,17 +24,14 @@ std::string_view trimmed(std::string_view line) {
   return line.substr(first, line.find_last_not_of(blank) - first + 1);
 }
 
-[[noreturn]] void bad(const std::string& file, std::size_t line, const std::string& cause) {
-  throw InputError(file + ":" + std::to_string(line) + ": " + cause);
-}
-
 double parse_line(const std::string& file, std::size_t line, std::string_view text) {
   if (text.front() == '+') text.remove_prefix(1);
   double value = 0;
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || rest != end) bad(file, line, "not a number: " + io::quote(text));
-  if (value < 0) bad(file, line, "a distance below 0: " + io::quote(text));
+  if (error != std::errc{} || rest != end)
+    io::fail_at(file, line, "not a number: " + io::quote(text));
+  if (value < 0) io::fail_at(file, line, "a distance below 0: " + io::quote(text));
   return value;
 }
 
@@ -53,15 +51,15 @@ std::vector<double> read_truth(const std::string& file, std::size_t vertices) {
       if (empty == 0) empty = line;
       continue;
     }
-    if (empty != 0) bad(file, empty, "an empty line; write nan where there is no truth");
+    if (empty != 0) io::fail_at(file, empty, "an empty line; write nan where there is no truth");
     if (truth.size() == vertices)
-      bad(file, line, "one value more than the " + std::to_string(vertices) + " vertices");
+      io::fail_at(file, line, "one value more than the " + std::to_string(vertices) + " vertices");
     truth.push_back(parse_line(file, line, value));
   }
   if (truth.size() < vertices) {
-    bad(file, line,
-        "ends after " + std::to_string(truth.size()) + " values, but there are " +
-            std::to_string(vertices) + " vertices");
+    io::fail_at(file, line,
+                "ends after " + std::to_string(truth.size()) + " values, but there are " +
+                    std::to_string(vertices) + " vertices");
   }
   return truth;
 }
@@ -100,4 +98,4 @@ double ErrorGauge::most_below() const {
   return std::min(0.0, *std::min_element(relative_.begin(), relative_.end()));
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -11,7 +11,7 @@
 
 #include "complexes/common/point3.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 using Vector = Point3;
@@ -198,4 +198,4 @@ std::string ErrorClasses::text() const {
   return text;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

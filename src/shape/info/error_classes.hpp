@@ -8,7 +8,7 @@
 #include <plexway/shape/shape.hpp>
 #include "shape/info/report.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Where errors come from: relative errors at the vertices, split in several ways, each of them
 /// into a few classes. For surfaces and solids.
@@ -49,4 +49,4 @@ class ErrorClasses {
   std::array<std::array<Sum, most_classes>, splits> sum_{};
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -2,9 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
-#include <vector>
 
 #include <plexway/io/triangles.hpp>
 #include <plexway/shape/complex.hpp>
@@ -18,7 +16,7 @@
 #include "shape/warnings/survey.hpp"
 #include "shape/words.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 using Vector = Point3;
@@ -136,12 +134,6 @@ struct SurfaceSurvey {
   double slender_share = 0;
 };
 
-using Vector = std::array<double, 3>;
-
-double length(const Vector& from, const Vector& to) {
-  return std::hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]);
-}
-
 // Longest side over lowest height, 1 for an equilateral triangle. The sides are compared with the
 // longest one first, so that no unit makes the area underflow.
 bool is_slender(const std::array<double, 3>& side) {
@@ -159,24 +151,20 @@ bool is_slender(const std::array<double, 3>& side) {
 /// Cost: linear.
 SurfaceSurvey survey_surface(const io::Triangles& surface) {
   SurfaceSurvey survey;
-  double sum = 0;
-  std::size_t slender = 0, measured = 0;
+  std::vector<double> sides;
+  std::size_t slender = 0;
   for (const auto& corners : surface.triangles) {
     const auto& [a, b, c] = corners;
     if (a == b || b == c || c == a) continue;  // left out
-    ++measured;
     std::array<double, 3> side;
-    for (std::size_t i = 0; i < 3; ++i) {
-      side[i] = length(surface.positions[corners[i]], surface.positions[corners[(i + 1) % 3]]);
-      survey.edge.min = std::min(survey.edge.min, side[i]);
-      survey.edge.max = std::max(survey.edge.max, side[i]);
-      sum += side[i];
-    }
+    for (std::size_t i = 0; i < 3; ++i)
+      side[i] =
+          length_of(minus(surface.positions[corners[(i + 1) % 3]], surface.positions[corners[i]]));
+    sides.insert(sides.end(), side.begin(), side.end());
     if (is_slender(side)) ++slender;
   }
-  const auto triangles = static_cast<double>(measured);
-  survey.edge.mean = sum / (3 * triangles);
-  survey.slender_share = static_cast<double>(slender) / triangles;
+  survey.edge = spread_of(sides);
+  survey.slender_share = static_cast<double>(3 * slender) / static_cast<double>(sides.size());
   return survey;
 }
 
@@ -222,4 +210,4 @@ InfoReport info_of(const AnyShape& domain, const io::Triangles& surface) {
   return report;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

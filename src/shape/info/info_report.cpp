@@ -14,7 +14,7 @@
 #include "shape/warnings/sentences.hpp"
 #include "shape/words.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 std::string point_text(const std::array<double, 3>& point) {
@@ -305,4 +305,4 @@ InfoReport info_of(const AnyShape& domain, const MixedShape& mixed) {
   return report;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

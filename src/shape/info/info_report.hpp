@@ -17,7 +17,7 @@
 #include "shape/info/report.hpp"
 #include "shape/warnings/survey.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// What `info` says of a domain: the same for programs and for people.
 struct InfoReport {
@@ -83,4 +83,4 @@ struct SolidSurvey {
 /// Cost: O(n log n).
 SolidSurvey survey_solid(const AnyShape& solid);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -5,7 +5,7 @@
 
 #include "io/names.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 void Table::add(std::string label, std::string text) {
   lines_.emplace_back(std::move(label), std::move(text));
@@ -35,4 +35,4 @@ std::string json_text(const Json& object) {
 
 Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -7,7 +7,7 @@
 
 #include "shape/words.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Keeps its keys in the order they were put in.
 using Json = nlohmann::ordered_json;
@@ -34,4 +34,4 @@ std::string json_text(const Json& object);
 /// Null for what JSON cannot hold.
 Json json_number(double value);
 
-}  // namespace plexway
+}  // namespace plexway::detail

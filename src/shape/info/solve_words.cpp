@@ -14,7 +14,7 @@
 #include "shape/info/solve_words.hpp"
 #include "shape/make_complex.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 std::string_view executor_name(const AnyExecutor& executor) {
   constexpr std::array<std::string_view, 3> names = {"serial", "openmp", "gl"};
@@ -74,17 +74,11 @@ void add_accuracy(DomainKind kind, Accuracy accuracy, const PropagateStatistics&
   if (statistics.windows_gave_up > 0) json["windows_gave_up"] = statistics.windows_gave_up;
 }
 
-namespace {
-
 std::string_view name_of(Triangulation done) {
   return done == Triangulation::input      ? "input"
          : done == Triangulation::delaunay ? "delaunay"
                                            : "refined";
 }
-
-}  // namespace
-
-std::string_view name_of(const TriangulationReport& report) { return name_of(report.done); }
 
 std::string describe(const TriangulationReport& report) {
   std::string text =
@@ -177,4 +171,4 @@ InfoReport info_of_devices() {
   return report;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

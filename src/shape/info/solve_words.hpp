@@ -13,7 +13,7 @@
 
 #include "shape/info/report.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 ///@{
 /// What a report says of an executor: "serial", "openmp" or "gl"; how many threads it takes;
@@ -37,7 +37,7 @@ void add_accuracy(DomainKind kind, Accuracy accuracy, const PropagateStatistics&
 ///@}
 
 /// What a report says of it: "input", "delaunay" or "refined"; and a sentence for people.
-[[nodiscard]] std::string_view name_of(const TriangulationReport& report);
+[[nodiscard]] std::string_view name_of(Triangulation done);
 [[nodiscard]] std::string describe(const TriangulationReport& report);
 
 /// What `info` says of the triangles: their shape, and what `auto` makes of it.
@@ -52,4 +52,4 @@ struct RankCounts {
 /// All processes call it, each with what it sent.
 [[nodiscard]] RankCounts rank_counts(PieceRanks& ranks, std::size_t sent_bytes);
 
-}  // namespace plexway
+}  // namespace plexway::detail

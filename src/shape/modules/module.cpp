@@ -7,7 +7,7 @@
 
 #include "file/new_file.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 // Each module has a list of its own.
@@ -28,7 +28,7 @@ void remove_unfinished_files() noexcept {
     if (void (*const remover)() = place; remover != nullptr) remover();
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail
 
 #ifdef PLEXWAY_MODULE_FOLDER
 #include <dlfcn.h>
@@ -37,7 +37,7 @@ void remove_unfinished_files() noexcept {
 #include <system_error>
 #include <vector>
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,10 +89,10 @@ void* module_function(const std::string& what, const char* library, const char* 
   return entry;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail
 #endif
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The function of a module that returns its table, which is looked up once. Without the module
 /// there is no table.
@@ -125,4 +125,4 @@ PLEXWAY_FUNCTIONS(PclFunctions, pcl_functions, "PCL", PLEXWAY_PCL_MODULE)
 PLEXWAY_NO_FUNCTIONS(PclFunctions, pcl_functions, "PCL", "libpcl-dev")
 #endif
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -15,7 +15,7 @@
 #include <plexway/io/tets.hpp>
 #include <plexway/io/triangles.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Loads a module and looks up its function. Some providers' libraries take longer to load than all
 /// that is done with most files, so they are behind modules that are loaded when they are needed.
@@ -90,4 +90,4 @@ struct PclFunctions {
 /// PCL; Error where the module was not installed beside the tool.
 const PclFunctions& pcl_functions(const std::string& what);
 
-}  // namespace plexway
+}  // namespace plexway::detail

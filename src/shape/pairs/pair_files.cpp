@@ -28,7 +28,7 @@
 #include "shape/with_executor.hpp"
 #include "shape/words.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -428,4 +428,4 @@ PairFilesReport estimate_pair_files(const AnyExecutor& executor, const AnyShape&
   return run_on_named({domain, files, progress, ranks, true}, executor);
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -16,7 +16,7 @@
 
 #include "shape/pairs/pair_tables.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// A matrix of distances, or what is made of its rows, and which files that goes to; those without
 /// a name are not written. Names and numbers are checked by who fills it in.
@@ -91,4 +91,4 @@ PairFilesReport estimate_pair_files(const AnyExecutor& executor, const AnyShape&
                                     const PairFiles& files, const PairFilesProgress& progress,
                                     RowRanks* ranks = nullptr);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -10,7 +10,7 @@
 #include "io/names.hpp"
 #include "io/output_file.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 ParcelLabels read_parcels(const std::string& file, std::size_t vertices) {
   const std::vector<std::int64_t> label = io::read_vertex_labels(file, vertices);
@@ -138,4 +138,4 @@ StatisticsSummary write_statistics(const std::string& stats, const std::string& 
   return summary;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -11,7 +11,7 @@
 #include <plexway/pairs/row_reductions.hpp>
 #include <plexway/source/point_source.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Parcels by the labels that a file gives vertices.
 struct ParcelLabels {
@@ -60,4 +60,4 @@ StatisticsSummary write_statistics(const std::string& stats, const std::string& 
                                    std::span<const PointSource> sources,
                                    std::span<const Index> columns);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -19,6 +19,7 @@
 #include "shape/words.hpp"
 
 namespace plexway {
+using namespace detail;
 namespace {
 
 // Calls run(executor) with one that takes a source a thread.

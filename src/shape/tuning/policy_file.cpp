@@ -1,4 +1,4 @@
-#include "shape/tuning/policy_file.hpp"
+#include "shape/tuning/tuning.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -8,7 +8,7 @@
 
 #include "io/file_bytes.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr const char* probe_kind = "plexway probe table";
@@ -111,4 +111,4 @@ SaddleThresholds read_saddle_thresholds(const std::string& file) {
           member(file, json, "agreement", 1)};
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

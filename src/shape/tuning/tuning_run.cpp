@@ -17,13 +17,12 @@
 
 #include "io/names.hpp"
 #include "io/output_file.hpp"
-#include "shape/errors/truth_file.hpp"
+#include "shape/errors/measures.hpp"
 #include "shape/info/report.hpp"
 #include "shape/stopwatch.hpp"
-#include "shape/tuning/policy_file.hpp"
-#include "shape/tuning/tuning_run.hpp"
+#include "shape/tuning/tuning.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 namespace fs = std::filesystem;
@@ -347,4 +346,4 @@ TuningOutcome run_tuning(TuningRequest command, const ReadProgress& progress) {
   return outcome;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -6,9 +6,10 @@
 
 #include "complexes/common/local_frame.hpp"
 #include "complexes/common/point3.hpp"
+#include "complexes/common/vertices_outside.hpp"
 #include "shape/warnings/cloud_rims.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 namespace {
 
 constexpr std::size_t most_sources = 16;
@@ -133,27 +134,27 @@ constexpr double by_chance = 0.4;  // of even clouds 0 to 0.3, of uniformly rand
 constexpr double arm = 8;          // spacings
 constexpr double least_turn = 50 * std::numbers::pi / 180;
 
-double gap(const Point3& p, const Point3& q) {
-  const Point3 d = minus(p, q);
-  return std::sqrt(dot(d, d));
+}  // namespace
+
+std::vector<double> nearest_neighbours(const CloudShape& shape) {
+  const auto& at = shape.measured();
+  std::vector<double> nearest(at.size(), 0);
+  for (Index v = 0; v < at.size(); ++v)
+    for (const Index w : shape.neighbours.around(v))
+      if (const double d = norm(minus(at[v], at[w])); d > 0 && (nearest[v] == 0 || d < nearest[v]))
+        nearest[v] = d;
+  return nearest;
 }
 
-// Standard deviation of the distance to the nearest neighbour over its mean.
-double spread_of_nearest(const CloudShape& shape) {
-  const auto& at = shape.measured();
-  double sum = 0, squares = 0;
-  std::size_t count = 0;
-  for (Index v = 0; v < at.size(); ++v) {
-    double nearest = 0;
-    for (const Index w : shape.neighbours.around(v))
-      if (const double d = gap(at[v], at[w]); d > 0 && (nearest == 0 || d < nearest)) nearest = d;
-    if (nearest == 0) continue;
-    sum += nearest, squares += nearest * nearest, ++count;
-  }
-  if (count == 0) return 0;
-  const double mean = sum / static_cast<double>(count);
-  return std::sqrt(std::max(squares / static_cast<double>(count) - mean * mean, 0.)) / mean;
+bool is_scattered(std::span<const double> nearest) {
+  double sum = 0, squares = 0, count = 0;
+  for (const double d : nearest)
+    if (d > 0) sum += d, squares += d * d, ++count;
+  const double mean = sum / count;
+  return count > 0 && squares / count - mean * mean > by_chance * by_chance * mean * mean;
 }
+
+namespace {
 
 // The boundary of a sheet as loops of points, with the angle of the sheet at each.
 class Rims {
@@ -161,8 +162,7 @@ class Rims {
   template <class Real>
   Rims(const TriangleMesh<Real>& sheet, std::size_t points)
       : next_(points, none), angle_(points, 0) {
-    std::vector<Index> outside(sheet.vertex_count(), none);
-    for (Index v = 0; v < sheet.vertex_count(); ++v) outside[sheet.inside_vertex(v)] = v;
+    const std::vector<Index> outside = vertices_outside(sheet);
     const auto triangles = sheet.triangles().first(sheet.face_count());
     const Index sentinel = static_cast<Index>(sheet.face_count());
     for (const auto& t : triangles)
@@ -207,7 +207,7 @@ ScatteredRims turns_of(const Rims& rims, const std::vector<Point3>& at, double r
         std::size_t k = i;
         for (std::size_t steps = 0; way < reach && 2 * steps < n; ++steps) {
           const std::size_t to = (k + step) % n;
-          way += gap(at[loop[k]], at[loop[to]]);
+          way += norm(minus(at[loop[k]], at[loop[to]]));
           k = to;
           if (way < reach) excess += rims.excess(loop[k]);
         }
@@ -227,7 +227,7 @@ ScatteredRims turns_of(const Rims& rims, const std::vector<Point3>& at, double r
 
 template <class Real>
 ScatteredRims scattered_rims(const CloudShape& shape, const PointCloud<Real>& cloud) {
-  if (cloud.summary().boundary_points == 0 || !(spread_of_nearest(shape) > by_chance)) return {};
+  if (cloud.summary().boundary_points == 0 || !is_scattered(nearest_neighbours(shape))) return {};
   const auto& at = shape.measured();
   return turns_of(Rims(cloud.surface(), at.size()), at, arm * cloud.summary().mean_spacing);
 }
@@ -235,4 +235,4 @@ ScatteredRims scattered_rims(const CloudShape& shape, const PointCloud<Real>& cl
 template ScatteredRims scattered_rims(const CloudShape&, const PointCloud<float>&);
 template ScatteredRims scattered_rims(const CloudShape&, const PointCloud<double>&);
 
-}  // namespace plexway
+}  // namespace plexway::detail

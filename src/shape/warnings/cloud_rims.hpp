@@ -3,12 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include <plexway/cloud/point_cloud.hpp>
 #include <plexway/common/ids.hpp>
 #include <plexway/shape/cloud_shape.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Points of a cloud that came out farther than straight where the cloud is flat.
 struct RimDetours {
@@ -29,6 +30,11 @@ struct RimDetours {
                                      double spacing, std::span<const double> distance,
                                      std::span<const std::size_t> sources);
 
+/// The distance of each point to the nearest of its neighbours; 0 where there is none.
+[[nodiscard]] std::vector<double> nearest_neighbours(const CloudShape& shape);
+/// Are they as uneven as by chance?
+[[nodiscard]] bool is_scattered(std::span<const double> nearest);
+
 /// Where a cloud whose points are scattered as by chance has a rim that paths bend around.
 struct ScatteredRims {
   std::size_t points = 0;  ///< of the rim; 0: none, or the points are spaced evenly
@@ -46,4 +52,4 @@ template <class Real>
 extern template ScatteredRims scattered_rims(const CloudShape&, const PointCloud<float>&);
 extern template ScatteredRims scattered_rims(const CloudShape&, const PointCloud<double>&);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,19 +1,28 @@
 #include "shape/warnings/field_warnings.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <array>
+#include <map>
 #include <string>
+#include <type_traits>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <plexway/domain/domains.hpp>
 
+#include "complexes/mixed/joined_pieces.hpp"
 #include "complexes/simplicial/simplex_notches.hpp"
-#include "shape/warnings/mixed_warnings.hpp"
 #include "shape/warnings/sentences.hpp"
 #include "shape/words.hpp"
+#include "strings/mixed_space.hpp"
 
 namespace plexway {
+using namespace detail;
+
+namespace detail {
 
 namespace {
 
@@ -85,12 +94,108 @@ std::string simplices_sentence(const SimplicialComplex<Real, N>& complex) {
          "distances behind them may be up to a sixth too short";
 }
 
+using Edge = std::array<Index, 2>;
+
+// Calls visit(a, b) for the edges of simplices, by vertices inside; those of several not once.
+template <class Complex, class Visit>
+void each_edge(const Complex& complex, const Visit& visit) {
+  const auto all_of = [&](const auto& simplices) {
+    for (const auto& simplex : simplices)
+      for (std::size_t i = 0; i < std::size(simplex.corner); ++i)
+        for (std::size_t k = i + 1; k < std::size(simplex.corner); ++k)
+          if (simplex.corner[i] != simplex.corner[k])  // as the last one's, which is none
+            visit(simplex.corner[i], simplex.corner[k]);
+  };
+  if constexpr (requires { complex.tets(); }) {
+    all_of(complex.tets());
+  } else if constexpr (requires { complex.triangles(); }) {
+    all_of(complex.triangles());
+  } else {
+    for (Index v = 0; v + 1 < complex.begin().size(); ++v)
+      for (Index a = complex.begin()[v]; a < complex.begin()[v + 1]; ++a)
+        if (complex.arcs()[a].to != v) visit(v, complex.arcs()[a].to);
+  }
+}
+
+// Edges of wires and surfaces between vertices that a part of a higher dimension has too, but not
+// the edge.
 template <class Real>
-double largest_of(const DistanceField<Real>& field) {
-  double most = 0;
-  for (const Real d : field)
-    if (std::isfinite(d)) most = std::max(most, static_cast<double>(d));
-  return most;
+std::size_t unmatched_edges(const MixedComplex<Real>& complex) {
+  const auto part = [&](Index piece) -> const auto& {
+    return complex.complex(complex.pieces()[piece]);
+  };
+  const auto dimension = [&](Index piece) {
+    return std::visit([](const auto& c) { return std::decay_t<decltype(c)>::dimension; },
+                      part(piece));
+  };
+  // Of two parts, the vertices of the higher one that are the lower one's, and which.
+  std::map<std::pair<Index, Index>, std::unordered_map<Index, Index>> shared;
+  for (const auto& weld : complex.welds())
+    for (const std::size_t low : {0, 1})
+      if (dimension(weld.piece[low]) < dimension(weld.piece[1 - low]))
+        shared[{weld.piece[low], weld.piece[1 - low]}][weld.vertex[1 - low]] = weld.vertex[low];
+  std::size_t unmatched = 0;
+  for (Index low = 0; low < complex.pieces().size(); ++low) {
+    // Its edges, and of each whether a part has both ends, and whether one has it.
+    std::vector<Edge> edges;
+    std::visit(
+        [&](const auto& c) {
+          each_edge(c, [&](Index a, Index b) {
+            edges.push_back({std::min(a, b), std::max(a, b)});
+          });
+        },
+        part(low));
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    std::vector<char> has_ends(edges.size(), 0), has_edge(edges.size(), 0);
+    for (auto pair = shared.lower_bound({low, 0}); pair != shared.end() && pair->first.first == low;
+         ++pair) {
+      const std::unordered_map<Index, Index>& there = pair->second;
+      if (there.size() < 2) continue;
+      std::unordered_set<Index> ends;
+      for (const auto& [of_high, of_low] : there) ends.insert(of_low);
+      for (std::size_t n = 0; n < edges.size(); ++n)
+        if (ends.contains(edges[n][0]) && ends.contains(edges[n][1])) has_ends[n] = 1;
+      std::visit(
+          [&](const auto& c) {
+            each_edge(c, [&](Index a, Index b) {
+              const auto p = there.find(a), q = there.find(b);
+              if (p == there.end() || q == there.end()) return;
+              const Edge edge = {std::min(p->second, q->second), std::max(p->second, q->second)};
+              const auto at = std::lower_bound(edges.begin(), edges.end(), edge);
+              if (at != edges.end() && *at == edge)
+                has_edge[static_cast<std::size_t>(at - edges.begin())] = 1;
+            });
+          },
+          part(pair->first.second));
+    }
+    for (std::size_t n = 0; n < edges.size(); ++n) unmatched += has_ends[n] > has_edge[n];
+  }
+  return unmatched;
+}
+
+/// Parts that share vertices but not the edges between them, and paths that go from part to part
+/// at some points of a face only. Cost: linear.
+template <class Real>
+std::vector<Warning> mixed_warnings(const MixedComplex<Real>& complex) {
+  std::vector<Warning> warnings;
+  if (const std::size_t edges = unmatched_edges(complex); edges > 0)
+    warnings.push_back(
+        {counted(edges, "edges") + " of wires or surfaces " + (edges == 1 ? "leads" : "lead") +
+             " between vertices that another part has too, but not as an edge: between its ends no "
+             "path goes from the one to the other; what is meant to lie on that part has to be "
+             "made of "
+             "its edges or faces",
+         false});
+  if (MixedSpace::of(complex)->media) return warnings;
+  const auto joined = complex.joined();
+  if ((joined ? joined->domain : complex).hinges().empty()) return warnings;
+  warnings.push_back(
+      {"paths go from part to part at vertices and at the middles of edges only, as a part has no "
+       "positions, a surface is curved, or a simplex does not lie at one speed where its corners "
+       "are: distances are some 1e-3 too far, at single vertices some per cent",
+       true});
+  return warnings;
 }
 
 }  // namespace
@@ -110,6 +215,8 @@ std::vector<Warning> complex_warnings(const C& complex, Reader reader, const Giv
   return {{std::move(sentence)}};
 }
 
+}  // namespace detail
+
 template <DomainType D>
 std::vector<Warning> warnings(const D& domain, const DistanceField<RealOf<D>>& field,
                               const PropagateOptions& options) {
@@ -128,9 +235,7 @@ std::vector<Warning> warnings(const D& domain, const DistanceField<RealOf<D>>& f
       work.edges = largest_of(field) / domain.unit();
   }
   for (Warning& one : work_warnings(work, reader)) warnings.push_back(std::move(one));
-  const auto unreached = static_cast<std::size_t>(
-      std::count_if(field.begin(), field.end(), [](auto d) { return !std::isfinite(d); }));
-  if (unreached > 0) {
+  if (const std::size_t unreached = count_unreached(field); unreached > 0) {
     std::string why;
     if constexpr (requires { domain.summary().components; })
       if (domain.summary().components > 1)
@@ -141,9 +246,10 @@ std::vector<Warning> warnings(const D& domain, const DistanceField<RealOf<D>>& f
   return warnings;
 }
 
-#define PLEXWAY_COMPILE(...)                                                                     \
-  template std::vector<Warning> complex_warnings(const __VA_ARGS__&, Reader, const GivenCloud&); \
-  template std::vector<Warning> warnings(                                                        \
+#define PLEXWAY_COMPILE(...)                                                         \
+  template std::vector<Warning> detail::complex_warnings(const __VA_ARGS__&, Reader, \
+                                                         const GivenCloud&);         \
+  template std::vector<Warning> warnings(                                            \
       const __VA_ARGS__&, const DistanceField<__VA_ARGS__::Number>&, const PropagateOptions&);
 PLEXWAY_DOMAINS(PLEXWAY_COMPILE)
 #undef PLEXWAY_COMPILE

@@ -11,12 +11,16 @@
 
 #include "complexes/simplicial/simplex_notches.hpp"
 #include "shape/shape_state.hpp"
+#include "shape/warnings/cloud_gaps.hpp"
 #include "shape/warnings/cloud_rims.hpp"
 #include "shape/warnings/sentences.hpp"
 #include "shape/warnings/survey.hpp"
 #include "shape/words.hpp"
 
 namespace plexway {
+using namespace detail;
+
+namespace detail {
 
 namespace {
 
@@ -127,6 +131,8 @@ std::string apart_sentence(const AnyShape& domain, std::span<const std::size_t> 
   return text;
 }
 
+}  // namespace detail
+
 std::vector<Warning> domain_warnings(const AnyDomain& solver, Reader reader) {
   std::vector<Warning> warnings;
   const auto warning = [&](std::string text, bool doubtful = true) {
@@ -152,8 +158,19 @@ std::vector<Warning> domain_warnings(const AnyDomain& solver, Reader reader) {
   for (Warning& one : with_complex(
            solver, [&](const auto& complex) { return complex_warnings(complex, reader, given); }))
     warnings.push_back(std::move(one));
+  const BridgedGaps gaps =
+      with_cloud(solver, [&](const auto& cloud) { return bridged_gaps(*domain.cloud(), cloud); });
+  if (gaps.triangles > 0)
+    warning(
+        counted(gaps.triangles, "triangles") + " (point " + std::to_string(gaps.first) +
+        " is the first of their points) lie in rows over gaps about twice as wide as points are "
+        "apart, or wider, and paths cross them: distances are too short if the surface ends there, "
+        "as at a slit; neighbours within less than the gap's width keep it open (" +
+        said(Advice::neighbour_radius) + ")");
   return warnings;
 }
+
+namespace detail {
 
 std::vector<Warning> work_warnings(const FieldWork& work, Reader reader) {
   std::vector<Warning> warnings;
@@ -178,14 +195,14 @@ std::vector<Warning> work_warnings(const FieldWork& work, Reader reader) {
   const bool rounds = work.edges > 0 && work.accuracy != Accuracy::fast();
   const std::size_t raised = done.raised_vertices;
   if (100 * raised > all)
-    warning(counted(raised, "vertices") + rows +
-            " came out nearer than the straight line through space, and were given its length: "
-            "distances here are poor" +
-            (cured    ? cure
-             : rounds ? "; " + said(Advice::twice) + " may do better"
-             : work.has_triangulations
-                 ? "; another " + said(Advice::triangulation) + " may do better"
-                 : ""));
+    warning(
+        counted(raised, "vertices") + rows +
+        " came out nearer than the straight line through space by more than 1e-3 of it, and were "
+        "given its length: distances here are poor" +
+        (cured                     ? cure
+         : rounds                  ? "; " + said(Advice::twice) + " may do better"
+         : work.has_triangulations ? "; another " + said(Advice::triangulation) + " may do better"
+                                   : ""));
   const std::size_t lowered = done.lowered_vertices;
   if ((cured ? 50 : 20) * lowered > all)
     warning(counted(lowered, "vertices") + rows +
@@ -201,6 +218,8 @@ std::vector<Warning> work_warnings(const FieldWork& work, Reader reader) {
   return warnings;
 }
 
+}  // namespace detail
+
 namespace {
 
 FieldWork work_of(const AnyDomain& domain, const PropagateStatistics& statistics,
@@ -215,32 +234,13 @@ FieldWork work_of(const AnyDomain& domain, const PropagateStatistics& statistics
           .vertices = domain.vertices()};
 }
 
-double largest(const AnyField& field) {
-  return std::visit(
-      [](const auto& f) {
-        double most = 0;
-        for (const auto d : f.distance)
-          if (std::isfinite(d)) most = std::max(most, static_cast<double>(d));
-        return most;
-      },
-      field.data);
-}
-
-}  // namespace
-
-namespace {
-
 // A rim that is known to some spacings only, if that matters at the field's size.
 std::string rims_sentence(const AnyDomain& solver, double farthest) {
   constexpr double spacings = 4, share = 0.05;
   const CloudSummary* const cloud = solver.cloud();
   if (cloud == nullptr || spacings * cloud->mean_spacing < share * farthest) return "";
-  const ScatteredRims rims = with_complex(solver, [&]<class C>(const C& complex) {
-    if constexpr (C::kind == DomainKind::cloud)
-      return scattered_rims(*solver.shape().cloud(), complex);
-    else
-      return ScatteredRims();
-  });
+  const ScatteredRims rims = with_cloud(
+      solver, [&](const auto& sheet) { return scattered_rims(*solver.shape().cloud(), sheet); });
   if (rims.points == 0) return "";
   return "the points are scattered as by chance, and paths bend around corners of their rim (" +
          std::to_string(rims.first) +
@@ -257,14 +257,14 @@ std::vector<Warning> field_warnings(const AnyDomain& solver, const AnyField& fie
   std::vector<Warning> warnings;
   const auto warning = [&](std::string text) { warnings.push_back({std::move(text)}); };
   const AnyShape& domain = solver.shape();
-  if (!(largest(field) > 0)) {
-    const auto from = reached_sources([&](Index v) { return field[v]; }, sources);
-    if (std::string apart = apart_sentence(domain, from); !apart.empty()) warning(std::move(apart));
-  }
+  const double largest = std::visit([](const auto& f) { return largest_of(f); }, field.data);
+  const auto from = [&] { return reached_sources([&](Index v) { return field[v]; }, sources); };
+  if (!(largest > 0))
+    if (std::string apart = apart_sentence(domain, from()); !apart.empty())
+      warning(std::move(apart));
   if (const CloudSummary* cloud = solver.cloud()) {
-    const auto from = reached_sources([&](Index v) { return field[v]; }, sources);
     const RimDetours detours =
-        rim_detours(domain.positions(), cloud->mean_spacing, field.doubles(), from);
+        rim_detours(domain.positions(), cloud->mean_spacing, field.doubles(), from());
     if (detours.points > 0)
       warning(counted(detours.points, "points") + " (" + std::to_string(detours.first) +
               " is the first) " +
@@ -274,16 +274,17 @@ std::vector<Warning> field_warnings(const AnyDomain& solver, const AnyField& fie
               "around a notch in its rim or a void; that is too far if the surface does not end "
               "there, and more points there help");
   }
-  if (std::string rims = rims_sentence(solver, largest(field)); !rims.empty())
-    warning(std::move(rims));
+  if (std::string rims = rims_sentence(solver, largest); !rims.empty()) warning(std::move(rims));
   FieldWork work = work_of(solver, field.statistics(), field.accuracy());
   work.complete = field.complete();
   work.in_space = !domain.positions().empty();
   if (const double edge = solver.mean_edge(); solver.precision() == Precision::float32 && edge > 0)
-    work.edges = largest(field) / edge;
+    work.edges = largest / edge;
   for (Warning& one : work_warnings(work, reader)) warnings.push_back(std::move(one));
   return warnings;
 }
+
+namespace detail {
 
 bool is_bounded(const PropagateOptions& options) {
   return std::isfinite(options.radius) ||
@@ -299,14 +300,12 @@ Warning unreached_warning(std::size_t count, std::string why, bool bounded, Read
           false};
 }
 
+}  // namespace detail
+
 std::vector<Warning> reach_warnings(const AnyDomain& domain, const AnyField& field,
                                     const PropagateOptions& options, Reader reader) {
-  const std::size_t unreached = std::visit(
-      [](const auto& f) {
-        return static_cast<std::size_t>(std::count_if(f.distance.begin(), f.distance.end(),
-                                                      [](auto d) { return !std::isfinite(d); }));
-      },
-      field.data);
+  const std::size_t unreached =
+      std::visit([](const auto& f) { return count_unreached(f); }, field.data);
   if (unreached == 0) return {};
   return {unreached_warning(unreached, why_unreached(domain, reader), is_bounded(options), reader)};
 }

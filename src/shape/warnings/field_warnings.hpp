@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -8,7 +10,7 @@
 #include <plexway/any_domain.hpp>
 #include <plexway/shape/warnings.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// How far a field got.
 struct FieldReach {
@@ -47,6 +49,20 @@ struct FieldWork {
 /// Was one?
 [[nodiscard]] bool is_bounded(const PropagateOptions& options);
 
+/// The longest distance of a field, and how many vertices it does not reach.
+template <class Real>
+double largest_of(const DistanceField<Real>& field) {
+  double most = 0;
+  for (const Real d : field)
+    if (std::isfinite(d)) most = std::max(most, static_cast<double>(d));
+  return most;
+}
+template <class Real>
+std::size_t count_unreached(const DistanceField<Real>& field) {
+  return static_cast<std::size_t>(
+      std::count_if(field.begin(), field.end(), [](Real d) { return !std::isfinite(d); }));
+}
+
 /// How a cloud was given.
 struct GivenCloud {
   std::size_t k = 0;             ///< neighbours that were sought; 0: not known
@@ -58,4 +74,4 @@ template <class C>
 [[nodiscard]] std::vector<Warning> complex_warnings(const C& complex, Reader reader,
                                                     const GivenCloud& given = {});
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -7,6 +7,8 @@
 
 namespace plexway {
 
+namespace detail {
+
 std::string kept_points(const CloudShape& cloud) {
   const std::size_t kept = cloud.points.positions.size();
   std::string why;
@@ -36,6 +38,8 @@ std::string why_disconnected(const CloudShape& cloud, std::size_t components, Re
   return text;
 }
 
+}  // namespace detail
+
 metric::Violations violations_of(const AnyDomain& domain) {
   const MeasuredLengths* lengths = domain.lengths();
   if (lengths == nullptr) lengths = domain.shape().lengths();
@@ -59,6 +63,8 @@ metric::Violations violations_of(const AnyDomain& domain) {
   return found;
 }
 
+namespace detail {
+
 std::string smoothed_sentence() {
   return "in solids paths are refracted between regions of at most 64 speeds: here each edge takes "
          "the mean of its tetrahedra, which is of first order where they jump";
@@ -75,5 +81,7 @@ std::string violations_sentence(const AnyDomain& domain) {
          std::to_string(all) + ", such as " + singular(what) + " " + std::to_string(broken.first) +
          ": their lengths were taken as those of the nearest flat ones";
 }
+
+}  // namespace detail
 
 }  // namespace plexway

@@ -6,7 +6,7 @@
 #include <plexway/shape/cloud_shape.hpp>
 #include <plexway/shape/warnings.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// How the points kept came from those in the file, for people: "5120 of 20000 points: 3 not
 /// finite, 17 outliers"; empty where all were kept.
@@ -57,4 +57,4 @@ constexpr const char* spelled(Advice advice, Reader reader) {
   return reader == Reader::tool ? row.tool : reader == Reader::python ? row.python : row.people;
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -7,7 +7,7 @@
 #include "complexes/common/point3.hpp"
 #include "shape/shape_state.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 Box<3> bounding_box(std::span<const std::array<double, 3>> positions) {
   if (positions.empty()) return {};
@@ -95,4 +95,4 @@ std::string components_warning(std::size_t components) {
          " components: a source reaches only its own, the others get inf";
 }
 
-}  // namespace plexway
+}  // namespace plexway::detail

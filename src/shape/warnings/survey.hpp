@@ -12,7 +12,7 @@
 #include "complexes/common/box_tree.hpp"
 #include "complexes/common/disjoint_sets.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Bounding box of all vertices; both corners at 0 where there are none.
 Box<3> bounding_box(std::span<const std::array<double, 3>> positions);
@@ -40,4 +40,4 @@ std::vector<std::size_t> component_sizes(const AnyShape& shape);
 /// "3 components: a source reaches only its own ..."
 std::string components_warning(std::size_t components);
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -7,8 +7,7 @@
 #include <plexway/error.hpp>
 
 #include "shape/arguments/arguments.hpp"
-#include "shape/errors/race.hpp"
-#include "shape/errors/truth_file.hpp"
+#include "shape/errors/measures.hpp"
 #include "shape/info/error_classes.hpp"
 #include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"
@@ -18,6 +17,7 @@
 #include "tool/report/console.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 struct BenchCommand : InputCommand {
@@ -62,7 +62,7 @@ Json bench_json(const BenchCommand& command, const AnyDomain& solver, const AnyF
   json["visibility"] = command.solve.visibility;
   if (has_accuracies(domain.kind())) json["accuracy"] = json_of(field.accuracy());
   if (domain.kind() == DomainKind::surface) {
-    json["triangulation"] = name_of(field.triangulation);
+    json["triangulation"] = name_of(field.triangulation.done);
     json["flips"] = field.triangulation.flips;
   }
   json["sources"] = result.sources;

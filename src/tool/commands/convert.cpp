@@ -1,7 +1,7 @@
 #include <memory>
 #include <string>
 
-#include "shape/convert.hpp"
+#include "shape/files.hpp"
 #include "shape/info/report.hpp"
 #include "tool/app.hpp"
 #include "tool/options/input.hpp"
@@ -9,6 +9,7 @@
 #include "tool/report/summary.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 struct ConvertCommand : InputCommand {

@@ -10,13 +10,14 @@
 #include <plexway/solve.hpp>
 
 #include "shape/arguments/arguments.hpp"
-#include "shape/result_files.hpp"
+#include "shape/files.hpp"
 #include "tool/app.hpp"
 #include "tool/commands/sampling_command.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 struct CvtCommand : SamplingCommand {
@@ -56,10 +57,8 @@ CvtResult compute(const Complex& complex, const SampledNumbers& numbers, const C
   progress.phase("moving seeds");
   std::size_t done = 0;
   options.progress = [&](const VoronoiStep& step) {
-    const std::string line = "iteration " + std::to_string(++done) + ": energy " +
-                             short_number(step.energy) + ", movement " +
-                             short_number(step.movement);
-    progress.phase(line);
+    progress.phase("iteration " + std::to_string(++done) + ": energy " + short_number(step.energy) +
+                   ", movement " + short_number(step.movement));
     return true;
   };
   result.voronoi = centroidal_voronoi(Serial{}, complex, start.darts, options);
@@ -70,9 +69,8 @@ CvtResult compute(const Complex& complex, const SampledNumbers& numbers, const C
   const auto field = solve(Serial{}, complex, std::span<const PointSource>(seeds));
   result.distance.assign(field.distance.begin(), field.distance.end());
   result.label = field.label;
-  if (result.label.empty()) {
+  if (result.label.empty())
     for (const double d : result.distance) result.label.push_back(std::isfinite(d) ? 0 : none);
-  }
   numbers.spread(result.distance);
   numbers.spread(result.label);
   phases.end("cells");
@@ -84,12 +82,9 @@ void run_cvt(const CvtCommand& command) {
   if (command.count == 0) throw UsageError("--count must be > 0");
   if (!(command.tolerance >= 0)) throw UsageError("--tolerance must be >= 0");
   static_cast<void>(centre_of(command));
-  check_output_name(command.out, command.input, point_file_extensions());
   check_output_name(command.cells, command.input, io::field_extensions(), "--cells");
   check_output_name(command.dual, command.input, io::triangle_output_extensions(), "--dual");
-  check_outputs_differ(
-      {command.out, command.cells, command.dual, command.picture.file, command.picture.html});
-  check_picture(command.picture, command.input);
+  check_outputs(command, command.cells, command.dual);
 
   ProgressLine progress(command.quiet);
   Phases phases;
@@ -106,16 +101,11 @@ void run_cvt(const CvtCommand& command) {
   std::vector<std::int32_t> labels;
   for (const Index l : result.label)
     labels.push_back(l == none ? -1 : static_cast<std::int32_t>(l));
-  if (command.picture.wanted()) {
-    SceneContent content;
-    content.distance = result.distance;
-    content.label = labels;
-    for (const PointSource& seed : voronoi.seeds) content.dots.push_back(domain.position(seed));
-    write_picture(command.picture, domain, content, command.quiet);
-  }
-  if (!command.cells.empty()) {
-    domain.write_field(command.cells, result.distance, labels);
-  }
+  SceneContent content;
+  content.distance = result.distance;
+  content.label = labels;
+  draw_points(command, domain, voronoi.seeds, content);
+  if (!command.cells.empty()) domain.write_field(command.cells, result.distance, labels);
   DualTriangulation dual;
   if (!command.dual.empty()) {
     const auto& surface = std::get<io::Triangles>(domain.data());

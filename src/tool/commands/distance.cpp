@@ -15,11 +15,10 @@
 #include "executors/same_work.hpp"
 #include "io/field/field_formats.hpp"
 #include "shape/arguments/arguments.hpp"
-#include "shape/fill.hpp"
+#include "shape/files.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/level_sets.hpp"
-#include "shape/result_files.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/warnings/field_warnings.hpp"
 #include "shape/warnings/sentences.hpp"
@@ -30,6 +29,7 @@
 #include "tool/report/summary.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 // What came out, as far as a report tells it.
@@ -104,7 +104,8 @@ Summary summary_of(const DistanceCommand& command, const Domain& domain, const A
   json["threads"] = executor_threads(outcome.executor);
   json["precision"] = command.solve.precision == "float" ? "float" : "double";
   add_accuracy(domain.kind(), field.accuracy(), field.statistics(), json);
-  if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(field.triangulation);
+  if (domain.kind() == DomainKind::surface)
+    json["triangulation"] = name_of(field.triangulation.done);
   add_file_report(domain, json, table);
   if (!domain.level_set_note().empty())
     summary.add("voxels", domain.level_set_note(), domain.level_set_note());
@@ -316,7 +317,7 @@ void add_distance_command(CLI::App& tool, Action& action, const Among* among) {
       ->required()
       ->allow_extra_args(false);
   add("--out,-o", command->out, "FILE",
-      "write the distances: .csv .npy .ply .vtk .vtu .glb .gltf (.pcd of clouds,\n"
+      "write the distances: .csv .npy .gii .ply .vtk .vtu .glb .gltf (.pcd of clouds,\n"
       ".vdb of solids) by extension, or - for CSV on standard output, ply:- for a .ply there,\n"
       "and so on (the summary then goes to standard error); among ranks also .pvtu,\n"
       "of which each rank writes a part");

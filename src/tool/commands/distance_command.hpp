@@ -10,6 +10,7 @@
 #include "tool/options/solve_options.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 
 /// 'plexway distance', as typed.
 struct DistanceCommand : InputCommand {

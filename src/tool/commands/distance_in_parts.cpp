@@ -20,9 +20,9 @@
 #include "executors/same_work.hpp"
 #include "executors/threads/rank_mail.hpp"
 #include "shape/arguments/arguments.hpp"
+#include "shape/files.hpp"
 #include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"
-#include "shape/result_files.hpp"
 #include "shape/stopwatch.hpp"
 #include "shape/warnings/field_warnings.hpp"
 #include "tool/app.hpp"
@@ -31,6 +31,7 @@
 #include "tool/report/summary.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 /// The table's word on all that was requested.

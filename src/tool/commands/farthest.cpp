@@ -1,20 +1,20 @@
 #include <limits>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/sampling/farthest_points.hpp>
 
 #include "shape/arguments/arguments.hpp"
-#include "shape/result_files.hpp"
+#include "shape/files.hpp"
 #include "tool/app.hpp"
 #include "tool/commands/sampling_command.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 struct FarthestCommand : SamplingCommand {
@@ -28,9 +28,7 @@ void run_farthest(const FarthestCommand& command) {
   if (command.count == 0 && !(command.radius > 0))
     throw UsageError("give --count, --radius or both, > 0");
   if (!(command.radius >= 0)) throw UsageError("--radius must be >= 0");
-  check_output_name(command.out, command.input, point_file_extensions());
-  check_picture(command.picture, command.input);
-  check_outputs_differ({command.out, command.picture.file, command.picture.html});
+  check_outputs(command);
   const auto arguments = parse_sources(
       command.sources.empty() ? std::vector<std::string>{"vertex:0"} : command.sources);
   ProgressLine progress(command.quiet);
@@ -58,12 +56,9 @@ void run_farthest(const FarthestCommand& command) {
   });
   if (!command.out.empty())
     write_points(command.out, domain, found.points, "distance", found.distance);
-  if (command.picture.wanted()) {
-    SceneContent content;
-    content.distance = nearest;
-    for (const PointSource& point : found.points) content.dots.push_back(domain.position(point));
-    write_picture(command.picture, domain, content, command.quiet);
-  }
+  SceneContent content;
+  content.distance = nearest;
+  draw_points(command, domain, found.points, content);
   phases.end("write");
   progress.clear();
 

@@ -12,6 +12,7 @@
 #include "tool/report/console.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 struct InfoCommand : InputCommand {

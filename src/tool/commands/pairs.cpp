@@ -16,13 +16,13 @@
 #include <plexway/pairs/distance_matrix.hpp>
 
 #include "shape/arguments/arguments.hpp"
+#include "shape/files.hpp"
 #include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/kept_build.hpp"
 #include "shape/modules/module.hpp"
 #include "shape/pairs/pair_files.hpp"
 #include "shape/pairs/pair_tables.hpp"
-#include "shape/result_files.hpp"
 #include "shape/warnings/field_warnings.hpp"
 #include "tool/app.hpp"
 #include "tool/commands/sampling_command.hpp"
@@ -32,6 +32,7 @@
 #include "tool/report/summary.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 
 namespace {
 
@@ -345,11 +346,8 @@ void run_pairs(const PairsCommand& pairs) {
   SamplingCommand command;
   static_cast<InputCommand&>(command) = pairs;
   command.out = pairs.out;
-  command.precision = pairs.solve.precision;
-  command.precision_given = pairs.solve.precision_given;
-  command.accuracy = pairs.solve.accuracy;
-  const Precision precision = precision_of(command);
-  const Accuracy accuracy = accuracy_of(command.accuracy);
+  const Precision precision = precision_of(pairs.solve);
+  const Accuracy accuracy = accuracy_of(pairs.solve.accuracy);
   check_output_name(command.out, command.input, matrix_file_extensions());
   for (const std::string& text : pairs.points)
     if (text == "all" || (text.find(':') == text.npos && std::filesystem::exists(text)))

@@ -25,6 +25,7 @@
 #include "tool/report/summary.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 struct PathCommand : InputCommand {
@@ -168,7 +169,8 @@ Summary summary_of(const PathCommand& command, const Domain& domain, const PathO
   json["expansions"] = outcome.statistics.expansions;
   json["updates"] = outcome.statistics.updates;
   json["executor"] = outcome.executor;
-  if (domain.kind() == DomainKind::surface) json["triangulation"] = name_of(outcome.triangulation);
+  if (domain.kind() == DomainKind::surface)
+    json["triangulation"] = name_of(outcome.triangulation.done);
   if (command.verbose) table.add("work", counted(outcome.statistics.expansions, "expansions"));
   return summary;
 }
@@ -325,8 +327,8 @@ void add_path_command(CLI::App& tool, Action& action) {
       ->required()
       ->allow_extra_args(false);
   add_output(app, "--out,-o", command->out,
-             "write the paths: .obj (lines), .ply, .vtp or .json by extension, each from its\n"
-             "target back to its source; - for JSON on standard output",
+             "write the paths: .obj (lines), .ply, .vtp, .csv or .json by extension, each from\n"
+             "its target back to its source; - for JSON on standard output",
              "json");
   app.add_flag("--astar", command->astar,
                "surfaces: look only at what a shortest path may pass, instead of everything");

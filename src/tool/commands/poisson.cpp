@@ -8,13 +8,14 @@
 #include <plexway/sampling/poisson_disk.hpp>
 
 #include "io/number_rows.hpp"
-#include "shape/result_files.hpp"
+#include "shape/files.hpp"
 #include "tool/app.hpp"
 #include "tool/commands/sampling_command.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 struct PoissonCommand : SamplingCommand {
@@ -47,10 +48,8 @@ void run_poisson(const PoissonCommand& command) {
   const auto order =
       choose<DartOrder>("--order", command.order,
                         {{"uniform", DartOrder::uniform}, {"simplices", DartOrder::simplices}});
-  check_output_name(command.out, command.input, point_file_extensions());
-  check_picture(command.picture, command.input);
+  check_outputs(command);
   check_output_place(command.out, {&command.spacing, 1}, "--out");
-  check_outputs_differ({command.out, command.picture.file, command.picture.html});
   const std::vector<double> spacing =
       command.spacing.empty() ? std::vector<double>{} : read_spacing(command.spacing);
 
@@ -78,12 +77,9 @@ void run_poisson(const PoissonCommand& command) {
     phases.end("throw");
   });
   if (!command.out.empty()) write_points(command.out, domain, disks.darts);
-  if (command.picture.wanted()) {
-    SceneContent content;
-    content.look_inside = true;
-    for (const PointSource& dart : disks.darts) content.dots.push_back(domain.position(dart));
-    write_picture(command.picture, domain, content, command.quiet);
-  }
+  SceneContent content;
+  content.look_inside = true;
+  draw_points(command, domain, disks.darts, content);
   phases.end("write");
   progress.clear();
 

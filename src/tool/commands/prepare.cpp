@@ -17,6 +17,7 @@
 #include "tool/report/summary.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 struct PrepareCommand : InputCommand {
@@ -54,7 +55,7 @@ void run_prepare(const PrepareCommand& command) {
   summary.table.add(std::string(kind_noun(domain.kind())),
                     size_text(shape, domain.simplices()) + ", " + command.precision);
   if (domain.kind() == DomainKind::surface) {
-    summary.json["triangulation"] = name_of(domain.triangulation());
+    summary.json["triangulation"] = name_of(domain.triangulation().done);
     summary.table.add("triangles", describe(domain.triangulation()));
   }
   summary.add("bytes", bytes, counted(bytes, "bytes"));

@@ -7,10 +7,12 @@
 #include <plexway/shape/shape.hpp>
 #include <plexway/source/point_source.hpp>
 
+#include "shape/files.hpp"
 #include "shape/warnings/survey.hpp"
 #include "tool/report/summary.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 
 namespace {
 
@@ -56,8 +58,21 @@ Precision precision_of(const SamplingCommand& command) {
   SolveOptions options;
   options.precision = command.precision;
   options.precision_given = command.precision_given;
-  options.accuracy = command.accuracy;
   return precision_of(options);
+}
+
+void check_outputs(const SamplingCommand& command, const std::string& other,
+                   const std::string& third) {
+  check_output_name(command.out, command.input, point_file_extensions());
+  check_picture(command.picture, command.input);
+  check_outputs_differ({command.out, other, third, command.picture.file, command.picture.html});
+}
+
+void draw_points(const SamplingCommand& command, const Domain& domain,
+                 std::span<const PointSource> points, SceneContent content) {
+  if (!command.picture.wanted()) return;
+  for (const PointSource& point : points) content.dots.push_back(domain.position(point));
+  write_picture(command.picture, domain, content, command.quiet);
 }
 
 void add_parts_without(Notes& notes, const Domain& domain, std::span<const PointSource> points,

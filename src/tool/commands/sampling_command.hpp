@@ -16,13 +16,13 @@
 #include "tool/report/summary.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 
 /// What the commands that choose points have in common, as typed.
 struct SamplingCommand : InputCommand {
   std::string out;
   std::string precision = "float";
   bool precision_given = false;
-  std::string accuracy;  ///< where the command has the option
   PictureArguments picture;
 };
 
@@ -52,6 +52,14 @@ void add_sampling_options(CLI::App& app, SamplingCommand& command, const char* o
 
 /// Throws UsageError where the precision does not exist.
 Precision precision_of(const SamplingCommand& command);
+
+/// Before any work: throws as check_output_name, check_picture and check_outputs_differ.
+void check_outputs(const SamplingCommand& command, const std::string& other = "",
+                   const std::string& third = "");
+
+/// Draws the points and this, if a picture is wanted.
+void draw_points(const SamplingCommand& command, const Domain& domain,
+                 std::span<const PointSource> points, SceneContent content);
 
 /// Points of a shape as its complex has them, where simplices have a corner twice or vertices are
 /// merged, and back.

@@ -6,7 +6,7 @@
 #include <plexway/shape/support.hpp>
 
 #include "shape/arguments/arguments.hpp"
-#include "shape/fill.hpp"
+#include "shape/files.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/info/report.hpp"
 #include "tool/app.hpp"
@@ -15,6 +15,7 @@
 #include "tool/report/summary.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 struct TetrahedralizeCommand : InputCommand {

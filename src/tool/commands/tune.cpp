@@ -4,13 +4,14 @@
 
 #include <plexway/error.hpp>
 
-#include "shape/tuning/tuning_run.hpp"
+#include "shape/tuning/tuning.hpp"
 #include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 // The request, and what is typed otherwise than it is meant.

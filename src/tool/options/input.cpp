@@ -7,6 +7,7 @@
 #include "tool/options/input.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 
 void add_cloud_options(CLI::App& command, CloudPreparation& options) {
   const OptionGroup add(command, "How to make a complex of points");
@@ -91,7 +92,8 @@ std::string input_help() {
   add(DomainKind::simplices, "simplices of dimension 1 to 4");
   return text +
          "what may hold several is what has most dimensions; a file of another name is known by\n"
-         "its first bytes, and any may be packed (.gz); .plexway: see 'plexway prepare'";
+         "its first bytes; all but .3mf .drc .node .ele .poly .smesh .pcd .vdb may be packed\n"
+         "(.gz); .plexway: see 'plexway prepare'";
 }
 
 void add_input(CLI::App& app, InputCommand& command, const std::string& help) {

@@ -19,6 +19,7 @@
 #endif
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 constexpr std::array<std::string_view, 2> picture_extensions = {".png", ".svg"};
@@ -260,8 +261,8 @@ void add_isoline_options(CLI::App& command, IsolineOptions& options) {
       "lines on a surface or a cloud, or surfaces in a solid, at each multiple of this\n"
       "distance, for --isolines-out");
   add_output(command, "--isolines-out", options.out,
-             "where to: .obj (lines), .ply, .vtp or .json; of a solid .obj, .off, .ply, .stl,\n"
-             ".glb, .gltf or .vtu (triangles); - for .obj on standard output",
+             "where to: .obj (lines), .ply, .vtp, .csv or .json; of a solid .obj, .off, .ply,\n"
+             ".stl, .glb, .gltf or .vtu (triangles); - for .obj on standard output",
              "obj");
 }
 

@@ -1,23 +1,21 @@
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <initializer_list>
-#include <string_view>
-#include <utility>
+#include <variant>
 
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
+#include <plexway/shape/complex.hpp>
 #include <plexway/shape/support.hpp>
 #include <plexway/support.hpp>
 
 #include "shape/arguments/arguments.hpp"
 #include "shape/info/solve_words.hpp"
-#include "shape/tuning/policy_file.hpp"
+#include "shape/tuning/tuning.hpp"
 #include "tool/options/solve_options.hpp"
 
-namespace plexway {
+namespace plexway::detail {
 
 namespace {
 
@@ -25,32 +23,50 @@ namespace {
 constexpr std::size_t auto_simplices = 100'000, auto_sources = 64;
 /// In pieces so many simplices are, from one source (bench executors: 1.4 to 1.7 times as fast).
 constexpr std::size_t auto_in_pieces = 400'000;
+/// By strings so many; where these have few bends threads change little.
+constexpr std::size_t auto_by_strings = 20'000;
+
+/// Is it a solid that strings solve, or a mixed domain with a solid in it?
+bool by_strings(const AnyDomain& domain, const PropagateOptions& options) {
+  return with_complex(domain, [&]<class C>(const C& complex) {
+    if constexpr (requires { complex.pieces(); }) {
+      const auto is_solid = [&](const auto& piece) {
+        return std::holds_alternative<TetMesh<RealOf<C>>>(complex.complex(piece));
+      };
+      return std::any_of(complex.pieces().begin(), complex.pieces().end(), is_solid);
+    } else {
+      const auto cell = with(combination_of(complex, ExecutorKind::openmp), options);
+      return domain.kind() == DomainKind::solid &&
+             resolved(options.accuracy, cell) != Accuracy::fast();
+    }
+  });
+}
 
 /// Serial or `team`, whichever solves ONE field of so many sources sooner.
 AnyExecutor fastest_executor(const AnyDomain& domain, std::size_t sources,
                              const PropagateOptions& options, const OpenMP& team) {
-  if (!openmp_built() || options.schedule == Schedule::priority ||
-      domain.kind() == DomainKind::simplices)  // whose fields are one thread's
-    return Serial{};
+  if (!openmp_built() || options.schedule == Schedule::priority) return Serial{};
   const bool in_pieces = domain.kind() == DomainKind::surface ||
-                         domain.kind() == DomainKind::cloud || domain.kind() == DomainKind::solid ||
+                         domain.kind() == DomainKind::cloud ||
                          domain.kind() == DomainKind::wireframe;
   const bool bounded =
       options.radius < PropagateOptions{}.radius ||
       options.max_expansions < PropagateOptions{}.max_expansions;  // fronts may stay short
-  const bool pays = in_pieces && domain.simplices() >= auto_in_pieces;
-  const bool many = domain.simplices() >= auto_simplices && sources >= auto_sources;
+  const bool pays = (in_pieces && domain.simplices() >= auto_in_pieces) ||
+                    (domain.simplices() >= auto_by_strings && by_strings(domain, options));
+  const bool many = in_pieces && domain.simplices() >= auto_simplices && sources >= auto_sources;
   if (!(pays || many) || bounded || team_size(team) < 2) return Serial{};
-  // A solid of several speeds is a mixed domain, and several threads are not for all options.
+  // Several threads are not for all options.
   if (!domain.support(team, PointSource::at(0), options)) return Serial{};
   return team;
 }
 
 }  // namespace
 
-}  // namespace plexway
+}  // namespace plexway::detail
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 bool is_built(const std::string& name) {

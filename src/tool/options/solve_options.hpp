@@ -16,6 +16,7 @@
 #include "tool/report/summary.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 
 /// --executor, --threads and --device, as typed.
 struct ExecutorArgument {

@@ -11,6 +11,7 @@
 #include "tool/report/console.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 namespace {
 
 [[noreturn]] void refused(int code) {

@@ -6,6 +6,7 @@
 #include "tool/report/console.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 
 void Notes::say(bool quiet) const {
   if (quiet) return;

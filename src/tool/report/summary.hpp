@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +17,7 @@
 #include "tool/options/input.hpp"
 
 namespace plexway::cli {
+using namespace detail;
 
 using io::check_output_name;
 using io::check_output_place;

@@ -74,7 +74,7 @@ TEST_CASE("the boundary of a flat cloud is its outline") {
   std::size_t edges = 0;
   for (const auto& t : mesh.triangles().first(sentinel))
     for (std::size_t i = 0; i < 3; ++i) {
-      if (t.across[i] >> plexway::Across::face_shift != sentinel) continue;
+      if (t.across[i] >> plexway::detail::Across::face_shift != sentinel) continue;
       ++edges;
       const auto& p = place[t.corner[i]];
       const double outer = std::min({p[0], 1 - p[0], p[1], 1 - p[1]});

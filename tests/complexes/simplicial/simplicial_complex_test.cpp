@@ -3,11 +3,12 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/simplicial/kuhn_grid.hpp>
+
+#include "message_of.hpp"
 
 namespace plexway::simplicial_complex_test {
 
@@ -15,18 +16,10 @@ using Catch::Matchers::Contains;
 
 namespace {
 
+using testing::message_of;
+
 const double infinity = std::numeric_limits<double>::infinity();
 const double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-template <class Make>
-std::string error_of(Make make) {
-  try {
-    make();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 template <int N>
 KuhnGrid<N> box(std::size_t n) {
@@ -115,7 +108,7 @@ TEST_CASE("absent cells leave holes and vertices without simplices") {
   CHECK(made.components == 1);
   const auto slab = [](const auto& cell) { return cell[1] == 2; };
   CHECK(grid.complex<float>(slab).summary().components == 2);
-  CHECK_THAT(error_of([&] { (void)grid.complex<float>([](const auto&) { return true; }); }),
+  CHECK_THAT(message_of([&] { (void)grid.complex<float>([](const auto&) { return true; }); }),
              Contains("no simplices"));
 }
 
@@ -185,40 +178,41 @@ TEST_CASE("bad simplices name themselves") {
   for (auto& row : lengths) row.fill(1);
   const auto from_positions = [&] { SimplicialComplex<float, 4>(p, 5, s); };
   const auto from_lengths = [&] { SimplicialComplex<float, 4>(6, s, lengths); };
-  CHECK(error_of(from_positions).empty());
-  CHECK(error_of(from_lengths).empty());
+  CHECK(message_of(from_positions).empty());
+  CHECK(message_of(from_lengths).empty());
   s[1][3] = 6;
-  CHECK_THAT(error_of(from_positions), Contains("simplex 1") && Contains("vertex 6"));
-  CHECK_THAT(error_of(from_lengths), Contains("simplex 1") && Contains("vertex 6"));
+  CHECK_THAT(message_of(from_positions), Contains("simplex 1") && Contains("vertex 6"));
+  CHECK_THAT(message_of(from_lengths), Contains("simplex 1") && Contains("vertex 6"));
   s[1][3] = 2;
-  CHECK_THAT(error_of(from_positions), Contains("simplex 1") && Contains("vertex 2 occurs twice"));
+  CHECK_THAT(message_of(from_positions),
+             Contains("simplex 1") && Contains("vertex 2 occurs twice"));
   s[1][3] = 4, s[1][4] = 5, s[1][2] = 3, s[1][1] = 2;
   for (const double bad : {-1., infinity, not_a_number}) {
     lengths[1][9] = bad;
-    CHECK_THAT(error_of(from_lengths), Contains("simplex 1") && Contains("length"));
+    CHECK_THAT(message_of(from_lengths), Contains("simplex 1") && Contains("length"));
   }
   lengths.pop_back();
-  CHECK_THAT(error_of(from_lengths), Contains("2 simplices with 1 rows"));
+  CHECK_THAT(message_of(from_lengths), Contains("2 simplices with 1 rows"));
   std::vector<double> q = p;
   q[17] = not_a_number;
-  CHECK_THAT(error_of([&] { SimplicialComplex<float, 4>(q, 5, s); }), Contains("vertex 3"));
-  CHECK_THAT(error_of([&] { SimplicialComplex<float, 4>(p, 3, s); }), Contains("dimension"));
-  CHECK_THAT(error_of([&] { SimplicialComplex<float, 4>(p, 7, s); }), Contains("dimension"));
+  CHECK_THAT(message_of([&] { SimplicialComplex<float, 4>(q, 5, s); }), Contains("vertex 3"));
+  CHECK_THAT(message_of([&] { SimplicialComplex<float, 4>(p, 3, s); }), Contains("dimension"));
+  CHECK_THAT(message_of([&] { SimplicialComplex<float, 4>(p, 7, s); }), Contains("dimension"));
   q.assign(30, 1.7e308);
   q[0] = -1.7e308;
-  CHECK_THAT(error_of([&] { SimplicialComplex<float, 4>(q, 5, s); }), Contains("too long"));
+  CHECK_THAT(message_of([&] { SimplicialComplex<float, 4>(q, 5, s); }), Contains("too long"));
   s.clear();
-  CHECK_THAT(error_of(from_positions), Contains("no simplices"));
+  CHECK_THAT(message_of(from_positions), Contains("no simplices"));
 }
 
 TEST_CASE("bad grids say which axis") {
   using Grid = KuhnGrid<2>;
-  CHECK_THAT(error_of([] { Grid({3, 0}, {1, 1}); }), Contains("axis 1"));
-  CHECK_THAT(error_of([] { Grid({3, 3}, {0, 1}); }), Contains("axis 0"));
-  CHECK_THAT(error_of([] { Grid({3, 3}, {1, not_a_number}); }), Contains("axis 1"));
-  CHECK_THAT(error_of([] { Grid({{{0, 1, 1}, {0, 1}}}); }), Contains("axis 0"));
-  CHECK_THAT(error_of([] { Grid({{{0, 1}, {infinity}}}); }), Contains("axis 1"));
-  CHECK_THAT(error_of([] { Grid({1u << 17, 1u << 17}, {1, 1}); }), Contains("too many"));
+  CHECK_THAT(message_of([] { Grid({3, 0}, {1, 1}); }), Contains("axis 1"));
+  CHECK_THAT(message_of([] { Grid({3, 3}, {0, 1}); }), Contains("axis 0"));
+  CHECK_THAT(message_of([] { Grid({3, 3}, {1, not_a_number}); }), Contains("axis 1"));
+  CHECK_THAT(message_of([] { Grid({{{0, 1, 1}, {0, 1}}}); }), Contains("axis 0"));
+  CHECK_THAT(message_of([] { Grid({{{0, 1}, {infinity}}}); }), Contains("axis 1"));
+  CHECK_THAT(message_of([] { Grid({1u << 17, 1u << 17}, {1, 1}); }), Contains("too many"));
 }
 
 }  // namespace plexway::simplicial_complex_test

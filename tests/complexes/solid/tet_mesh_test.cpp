@@ -5,29 +5,20 @@
 #include <map>
 #include <random>
 #include <set>
-#include <string>
 
 #include <plexway/error.hpp>
 #include <plexway/simplicial/kuhn_grid.hpp>
 #include <plexway/solve.hpp>
 
 #include "complexes/test_solids.hpp"
+#include "message_of.hpp"
 
 namespace plexway::testing::tet_mesh_test {
+using namespace detail;
 
 using Catch::Matchers::Contains;
 
 namespace {
-
-template <class Make>
-std::string error_of(Make make) {
-  try {
-    make();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 std::size_t distinct_edges(const Solid& s) {
   std::set<std::pair<Index, Index>> edges;
@@ -62,7 +53,6 @@ TEMPLATE_TEST_CASE("reflex edges and what only touches is found", "", float, dou
   const auto l = l_shape(4).mesh<TestType>();
   CHECK(l.summary().reflex_edges == 4);
   CHECK(l.summary().reflex_vertices == 5);
-  CHECK(l.reflex_edges().size() == 1);  // one straight row
   CHECK(walled(8).mesh<TestType>().summary().reflex_edges == 16);
   const auto e = edge_touch(4).mesh<TestType>();
   CHECK(e.summary().pinched_edges == 2);
@@ -120,7 +110,7 @@ TEST_CASE("a sliver that rounding has folded over refuses no solid") {
 TEMPLATE_TEST_CASE("bad solids name what is wrong", "", float, double) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
-  const auto error = [](const Solid& s) { return error_of([&] { return s.mesh<TestType>(); }); };
+  const auto error = [](const Solid& s) { return message_of([&] { return s.mesh<TestType>(); }); };
   for (const double bad : {nan, infinity, -infinity}) {
     Solid s = solid_cube(2);
     s.positions[7][1] = bad;
@@ -151,9 +141,10 @@ TEMPLATE_TEST_CASE("bad solids name what is wrong", "", float, double) {
   const Solid c = solid_cube(2);
   auto lengths = c.lengths();
   lengths[4][3] = -1;
-  CHECK_THAT(error_of([&] { return TetMesh<TestType>(27, c.tets, lengths); }), Contains("tet 4"));
+  CHECK_THAT(message_of([&] { return TetMesh<TestType>(27, c.tets, lengths); }), Contains("tet 4"));
   lengths.pop_back();
-  CHECK_THAT(error_of([&] { return TetMesh<TestType>(27, c.tets, lengths); }), Contains("lengths"));
+  CHECK_THAT(message_of([&] { return TetMesh<TestType>(27, c.tets, lengths); }),
+             Contains("lengths"));
 }
 
 // By what tetrahedra have in common alone: sets of vertices, no faces and no fans.
@@ -247,7 +238,7 @@ TEST_CASE("small tetrahedra are refused by their size beside the extent, whateve
       }
     }
     const std::vector<Tet> tets = {{0, 1, 2, 3}, {4, 5, 6, 7}};
-    return error_of([&] { TetMesh<float>(positions, tets); });
+    return message_of([&] { TetMesh<float>(positions, tets); });
   };
   constexpr double least = 128 * double{std::numeric_limits<float>::epsilon()};
   for (const double offset : {0.0, 10.0, 1e5}) {

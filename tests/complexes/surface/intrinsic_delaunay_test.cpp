@@ -6,7 +6,6 @@
 #include <map>
 #include <numbers>
 #include <random>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "complexes/surface/triangulation_testing.hpp"
 
 namespace plexway::testing::intrinsic_delaunay_test {
+using namespace detail;
 
 namespace {
 

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include <plexway/surface/triangle_mesh.hpp>
@@ -14,6 +12,7 @@
 
 /// What a mesh is, read from its records: for tests of what changes triangulations.
 namespace plexway::testing {
+using namespace detail;
 
 struct Plain {
   std::vector<Face> faces;                    // caller's vertices and corners

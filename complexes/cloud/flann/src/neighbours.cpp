@@ -13,6 +13,7 @@
 #include "search.hpp"
 
 namespace plexway::flann {
+using namespace detail;
 namespace {
 
 using Points = std::span<const std::array<double, 3>>;
@@ -171,12 +172,12 @@ Neighbours neighbours_of(const Search& search, std::size_t points, const Neighbo
 
 }  // namespace
 
-Neighbours neighbours(Points points, const NeighbourOptions& options) {
+Neighbours neighbours(const GivenPoints& points, const NeighbourOptions& options) {
   check_options(options);
   return neighbours_of(Search(points), points.size(), options, false);
 }
 
-Neighbours surface_neighbours(Points points, const NeighbourOptions& options) {
+Neighbours surface_neighbours(const GivenPoints& points, const NeighbourOptions& options) {
   check_options(options);
   DistinctPoints places = distinct_points(points);
   Neighbours found = neighbours_of(Search(points, places), points.size(), options, true);
@@ -185,7 +186,7 @@ Neighbours surface_neighbours(Points points, const NeighbourOptions& options) {
   return neighbours_of(Search(points, std::move(merged)), points.size(), options, true);
 }
 
-std::optional<std::size_t> connecting_k(Points points, std::size_t most,
+std::optional<std::size_t> connecting_k(const GivenPoints& points, std::size_t most,
                                         const NeighbourOptions& options) {
   const Search search(points);
   const DistinctPoints& places = search.places();

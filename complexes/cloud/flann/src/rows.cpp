@@ -5,6 +5,7 @@
 #include "complexes/common/point3.hpp"
 
 namespace plexway::flann {
+using namespace detail;
 namespace {
 
 using Offset = std::array<double, 3>;

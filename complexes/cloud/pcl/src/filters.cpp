@@ -16,6 +16,7 @@
 #include "quiet.hpp"
 
 namespace plexway::pcl {
+using namespace detail;
 namespace {
 
 using Row = std::array<double, 3>;

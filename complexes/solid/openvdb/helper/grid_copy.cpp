@@ -2,7 +2,6 @@
 
 #include <openvdb/openvdb.h>
 
-#include <filesystem>
 #include <vector>
 
 #include "grid_bricks.hpp"

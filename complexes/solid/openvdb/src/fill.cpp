@@ -12,6 +12,7 @@
 #include "stencil.hpp"
 
 namespace plexway::openvdb {
+using namespace detail;
 namespace {
 
 class Cutter {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
-#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>

@@ -1,7 +1,6 @@
 #include "reason.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <new>
 #include <set>
 #include <utility>

@@ -183,9 +183,8 @@ Solid fill(const PiecewiseLinearComplex& complex, const TetrahedralizeOptions& o
 
 }  // namespace
 
-Solid tetrahedralize(std::span<const Point> positions,
-                     std::span<const std::array<Index, 3>> triangles, std::span<const Point> holes,
-                     const TetrahedralizeOptions& options) {
+Solid tetrahedralize(const GivenPoints& positions, const GivenSimplices<3>& triangles,
+                     const GivenPoints& holes, const TetrahedralizeOptions& options) {
   require_finite(positions, "vertex");
   const std::vector<Index> welded = weld(positions);
   require_closed(triangles, welded);

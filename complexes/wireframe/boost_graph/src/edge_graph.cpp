@@ -5,15 +5,11 @@
 #include <plexway/boost_graph/edge_graph.hpp>
 #include <plexway/error.hpp>
 
-namespace plexway::boost_graph {
-namespace {
+#include "complexes/common/vertices_outside.hpp"
 
-// The caller's number of each vertex inside.
-std::vector<Index> outside_of(std::span<const Index> inside) {
-  std::vector<Index> outside(inside.size());
-  for (Index v = 0; v < inside.size(); ++v) outside[inside[v]] = v;
-  return outside;
-}
+namespace plexway::boost_graph {
+using namespace detail;
+namespace {
 
 // Of the halfedges on an edge, the lowest speaks for it.
 template <class Triangles>
@@ -51,7 +47,7 @@ EdgeGraph::EdgeGraph(std::size_t vertices, std::span<const std::array<Index, 2>>
 
 template <class Real>
 EdgeGraph::EdgeGraph(const Wireframe<Real>& wireframe) {
-  const std::vector<Index> outside = outside_of(wireframe.vertices_inside());
+  const std::vector<Index> outside = vertices_outside(wireframe);
   for (Index e = 0; e < wireframe.edge_count(); ++e) {
     const auto ends = wireframe.inside_edge(e);
     edges_.push_back({outside[ends.from], outside[ends.to]});
@@ -62,7 +58,7 @@ EdgeGraph::EdgeGraph(const Wireframe<Real>& wireframe) {
 
 template <class Real>
 EdgeGraph::EdgeGraph(const TriangleMesh<Real>& mesh) {
-  const std::vector<Index> outside = outside_of(mesh.vertices_inside());
+  const std::vector<Index> outside = vertices_outside(mesh);
   const auto triangles = mesh.triangles();
   for (Index f = 0; f < mesh.face_count(); ++f)
     for (Index i = 0; i < 3; ++i) {
@@ -76,7 +72,7 @@ EdgeGraph::EdgeGraph(const TriangleMesh<Real>& mesh) {
 
 template <class Real>
 EdgeGraph::EdgeGraph(const TetMesh<Real>& mesh) {
-  const std::vector<Index> outside = outside_of(mesh.vertices_inside());
+  const std::vector<Index> outside = vertices_outside(mesh);
   std::vector<std::array<Index, 4>> found;  // ends, and where the length is
   for (Index t = 0; t < mesh.tet_count(); ++t)
     for (Index e = 0; e < 6; ++e) {
@@ -89,10 +85,10 @@ EdgeGraph::EdgeGraph(const TetMesh<Real>& mesh) {
     if (!edges_.empty() && edges_.back() == std::array<Index, 2>{a, b}) continue;
     edges_.push_back({a, b});
     const auto& corner = mesh.tets()[t].corner;
-    const double length =
-        mesh.embedded() ? static_cast<double>(norm(mesh.points()[corner[tet_edge_ends[e][1]]] -
-                                                   mesh.points()[corner[tet_edge_ends[e][0]]]))
-                        : std::sqrt(static_cast<double>(mesh.squared_lengths()[t][e]));
+    const double length = mesh.embedded()
+                              ? norm(mesh.points()[corner[tet_edge_ends[e][1]]] -
+                                     mesh.points()[corner[tet_edge_ends[e][0]]])
+                              : std::sqrt(static_cast<double>(mesh.squared_lengths()[t][e]));
     lengths_.push_back(length * mesh.unit());
   }
   assemble(mesh.vertex_count());

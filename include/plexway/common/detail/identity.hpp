@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Tells contents apart, at once and exactly: what is kept elsewhere about an object (a copy on a
 /// graphics processor) is still right while its identity is the same.
@@ -34,4 +34,4 @@ class Identity {
   std::uint64_t value_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

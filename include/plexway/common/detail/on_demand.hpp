@@ -6,7 +6,7 @@
 #include <mutex>
 #include <utility>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Something that follows from a complex, made when it is first wanted. Copies of the complex share
 /// it, and any number of threads may want it at once.
@@ -39,4 +39,4 @@ class OnDemand {
   std::shared_ptr<State> state_ = std::make_shared<State>();
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

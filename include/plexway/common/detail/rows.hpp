@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// An array that is its own, or lies in memory that something else keeps, such as a file that is
 /// mapped. It is read as a std::vector is, and may be changed while it is its own.
@@ -44,4 +44,4 @@ class Rows {
   std::shared_ptr<const void> keeper_;
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

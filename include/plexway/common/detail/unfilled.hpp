@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Asks the system for large pages in a new array, if it is large: they cost a fault for each 2
 /// MiB, not for each 4 KiB. It need not heed that, and nothing but time depends on it.
@@ -39,4 +39,4 @@ struct UnfilledAllocator : std::allocator<T> {
 template <class T>
 using Unfilled = std::vector<T, UnfilledAllocator<T>>;
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -5,7 +5,7 @@
 
 #include <plexway/common/ids.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// Where the edges of an N-simplex and of its facets are in a list of lengths. Edge (a, b), a < b,
 /// stands at b (b - 1) / 2 + a: (0,1) (0,2) (1,2) (0,3) (1,3) (2,3) (0,4) ... Facet i is the one
@@ -62,4 +62,4 @@ struct SimplexRecord {
   Index number;                   ///< the caller's
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -1,11 +1,10 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 
 #include <plexway/common/ids.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The tetrahedron on the other side of a face, packed with the number that the face has there.
 struct TetAcross {
@@ -45,41 +44,10 @@ struct Vector3 {
   friend Real norm(const Vector3& a) { return std::sqrt(dot(a, a)); }
 };
 
-/// All that propagation reads of every tetrahedron. Face i lies opposite corner i. Lengths are in
-/// units of the mean edge; corners are in positive order.
-template <class Real>
+/// What lies where in a solid. Face i lies opposite corner i; corners are in positive order.
 struct TetRecord {
-  Index across[4];       ///< TetAcross of each face; the sentinel's index on the boundary
-  Index corner[4];       ///< vertices, numbers inside
-  Vector3<Real> centre;  ///< centroid; 0 where lengths are all that is known
-  Index reflex;          ///< its first entry in TetMesh::reflex_list, or none
+  Index across[4];  ///< TetAcross of each face; the sentinel's index on the boundary
+  Index corner[4];  ///< vertices, numbers inside
 };
 
-/// An edge of the boundary at which a path can bend: more than pi of solid around it. Where several
-/// fans of tetrahedra touch in one edge, each fan that is reflex has an entry of its own.
-template <class Real>
-struct ReflexEdge {
-  // First what shows that a point is not in its shadow.
-  Vector3<Real> solid;      ///< away from it: sum of the normals, or out of a crack
-  Vector3<Real> direction;  ///< from the first end to the second, unit; 0 without length
-  Vector3<Real> end[2];
-  Real extent;              ///< its length; named so that shaders can have it
-  Vector3<Real> normal[2];  ///< of the two boundary faces, unit, into the solid
-  Index vertex[2];          ///< numbers inside
-};
-
-/// Do both faces at it lie on each other, so that the solid goes all around?
-template <class Real>
-bool is_crack(const ReflexEdge<Real>& edge) {
-  return dot(edge.normal[0], edge.normal[1]) < Real(-1 + 1e-6);
-}
-
-/// An entry of TetMesh::reflex_list, packed.
-struct ReflexEntry {
-  static constexpr Index last = 1;  ///< the tetrahedron's list ends here
-  static constexpr int slot_shift = 1;
-  static constexpr Index slot_mask = 7;  ///< number of the edge in the tetrahedron
-  static constexpr int edge_shift = 4;
-};
-
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -5,7 +5,7 @@
 
 #include <plexway/common/ids.hpp>
 
-namespace plexway {
+namespace plexway::detail {
 
 /// The halfedge on the other side of an edge, packed.
 struct Across {
@@ -47,4 +47,4 @@ struct alignas(sizeof(Real) == 4 ? 64 : 8) TriangleRecord {
   [[nodiscard]] Real apex_h(std::size_t i) const { return length[i == 0 ? 2 : i - 1] * sine(i); }
 };
 
-}  // namespace plexway
+}  // namespace plexway::detail

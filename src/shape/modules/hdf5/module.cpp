@@ -16,9 +16,9 @@ void write_matrix(
       file, {shape[0], shape[1], number_bytes, read, row_names, column_names}, threads);
 }
 
-constexpr plexway::Hdf5Functions functions = {write_matrix};
+constexpr plexway::detail::Hdf5Functions functions = {write_matrix};
 
 }  // namespace
 
-extern "C" const plexway::Hdf5Functions* plexway_hdf5_functions() { return &functions; }
+extern "C" const plexway::detail::Hdf5Functions* plexway_hdf5_functions() { return &functions; }
 extern "C" void plexway_remove_unfinished() { plexway::file::remove_unfinished(); }

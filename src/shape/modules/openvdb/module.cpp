@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace vdb = plexway::openvdb;
-using plexway::OpenvdbFunctions;
+using plexway::detail::OpenvdbFunctions;
 using plexway::io::Tets;
 using plexway::io::Triangles;
 

@@ -11,7 +11,7 @@
 namespace {
 
 namespace fs = std::filesystem;
-using plexway::PclFunctions;
+using plexway::detail::PclFunctions;
 using Row = std::array<double, 3>;
 
 plexway::io::Points read_points(const fs::path& file, std::size_t& dropped) {

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <limits>
 #include <optional>
-#include <span>
 
 #include <plexway/cloud/neighbours.hpp>
 #include <plexway/common/rows_of.hpp>
@@ -36,7 +34,7 @@ struct NeighbourOptions {
 /// Throws InputError naming the point for a coordinate that is not finite, UsageError for a radius
 /// that is not > 0, or for neither k nor radius; Cancelled as progress says. The result does not
 /// depend on the number of threads. Cost: n log n; 2 to 3 us a point for k = 16 on one thread.
-[[nodiscard]] Neighbours neighbours(std::span<const std::array<double, 3>> points,
+[[nodiscard]] Neighbours neighbours(const GivenPoints& points,
                                     const NeighbourOptions& options = {});
 
 /// Neighbours to make a PointCloud of. As above, but for two things that k nearest points do not
@@ -48,21 +46,13 @@ struct NeighbourOptions {
 /// they do not hide the rest.
 ///
 /// Cost: 1.1 times as much; where rows are far apart, as for the k that it takes.
-[[nodiscard]] Neighbours surface_neighbours(std::span<const std::array<double, 3>> points,
+[[nodiscard]] Neighbours surface_neighbours(const GivenPoints& points,
                                             const NeighbourOptions& options = {});
-
-/// The same of points in an array of any kind (rows_of).
-template <RowsOfNumbers Points>
-requires(!PlainRows<Points, double, 3>) [[nodiscard]] Neighbours
-    surface_neighbours(const Points& points, const NeighbourOptions& options = {}) {
-  return surface_neighbours(std::span<const std::array<double, 3>>(rows_of<double, 3>(points)),
-                            options);
-}
 
 /// The smallest k with which all points are connected over neighbours, or nothing if it is above
 /// `most`. Radius and symmetry of `options` do not count. Throws as above. Cost: as for a search
 /// with twice the k that is found, and all smaller powers of two.
-[[nodiscard]] std::optional<std::size_t> connecting_k(std::span<const std::array<double, 3>> points,
+[[nodiscard]] std::optional<std::size_t> connecting_k(const GivenPoints& points,
                                                       std::size_t most = 256,
                                                       const NeighbourOptions& options = {});
 

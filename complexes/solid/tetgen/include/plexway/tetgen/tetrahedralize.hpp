@@ -2,10 +2,10 @@
 
 #include <array>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include <plexway/common/ids.hpp>
+#include <plexway/common/rows_of.hpp>
 #include <plexway/tetgen/piecewise_linear_complex.hpp>
 
 /// The component `tetgen`, link plexway::tetgen: solids from closed surfaces, by TetGen (AGPL).
@@ -57,9 +57,8 @@ struct Solid {
 /// aborts on some inputs: nothing reaches standard output, and the caller lives on. Cost: about
 /// 15 us a tetrahedron.
 /// Source: Si, TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator, ACM TOMS 41 (2015).
-[[nodiscard]] Solid tetrahedralize(std::span<const std::array<double, 3>> positions,
-                                   std::span<const std::array<Index, 3>> triangles,
-                                   std::span<const std::array<double, 3>> holes = {},
+[[nodiscard]] Solid tetrahedralize(const GivenPoints& positions, const GivenSimplices<3>& triangles,
+                                   const GivenPoints& holes = {},
                                    const TetrahedralizeOptions& options = {});
 
 /// The same for facets with more corners, holes and inner edges, and for regions with attributes

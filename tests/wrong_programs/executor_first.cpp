@@ -1,9 +1,0 @@
-// Executor and domain the wrong way around.
-#include <array>
-#include <vector>
-
-#include <plexway/solve.hpp>
-
-using namespace plexway;
-
-auto field(const TriangleMesh<float>& mesh) { return solve(mesh, Serial{}, 0); }
