@@ -19,7 +19,7 @@
 #include "plain_bytes.hpp"
 
 /// The helper's side of `helper_process.hpp`.
-namespace plexway::isolated {
+namespace plexway::detail::isolated {
 
 /// All of it, or the helper ends.
 inline void send_answer(const void* bytes, std::size_t size) {
@@ -60,4 +60,4 @@ inline std::string begin_as_helper(int argc, char** argv) {
   }
 }
 
-}  // namespace plexway::isolated
+}  // namespace plexway::detail::isolated

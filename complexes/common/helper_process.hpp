@@ -27,7 +27,7 @@
 /// For providers whose library may crash, loop or talk: it is linked into a program of its own, a
 /// helper, which runs as a child process (POSIX). `helper_main.hpp` is the helper's side. A child
 /// by fork alone would not do: it inherits the locks that the caller's other threads hold.
-namespace plexway::isolated {
+namespace plexway::detail::isolated {
 
 [[noreturn]] inline void throw_cannot_run(const std::string& helper, int reason) {
   throw Error("cannot run " + helper + ": " + std::generic_category().message(reason));
@@ -241,4 +241,4 @@ class Helper {
   pid_t pid_ = -1;
 };
 
-}  // namespace plexway::isolated
+}  // namespace plexway::detail::isolated

@@ -9,7 +9,7 @@
 
 /// What a caller and its helper say to each other: plain values and rows of them, as they lie in
 /// memory. Both are of one build, on one machine.
-namespace plexway::isolated {
+namespace plexway::detail::isolated {
 
 /// Where a helper's answer goes.
 constexpr int to_caller = 3;
@@ -68,4 +68,4 @@ class BytesIn {
   std::string_view rest_;
 };
 
-}  // namespace plexway::isolated
+}  // namespace plexway::detail::isolated

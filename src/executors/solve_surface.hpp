@@ -13,9 +13,7 @@
 #include "labels/surface/triangle_propagation.hpp"
 
 /// A solve on a surface, for any scheduler.
-namespace plexway::surface {
-using namespace detail;
-
+namespace plexway::detail::surface {
 /// The sources themselves, exactly, and the corners of triangles they lie in. `numbers`: which they
 /// are, ascending; empty for all.
 template <class Real, bool kLabels>
@@ -109,4 +107,4 @@ void solve_with(const TriangleMesh<Real>& mesh, std::span<const PointSource> sou
   }
 }
 
-}  // namespace plexway::surface
+}  // namespace plexway::detail::surface

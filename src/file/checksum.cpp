@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-namespace plexway::file {
+namespace plexway::detail::file {
 namespace {
 
 // One to one in both of its arguments, so that nothing that differs becomes the same.
@@ -34,4 +34,4 @@ std::uint64_t Checksum::value() const {
   return all;
 }
 
-}  // namespace plexway::file
+}  // namespace plexway::detail::file

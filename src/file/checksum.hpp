@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace plexway::file {
+namespace plexway::detail::file {
 
 /// Tells damage: 64 bits of blocks of 64 bytes, at the speed of memory. Each change of one word is
 /// found, others but for one in 2^64. Against those who want to deceive it is nothing.
@@ -24,4 +24,4 @@ class Checksum {
       0x452821e638d01377, 0xbe5466cf34e90c6c, 0xc0ac29b7c97c50dd, 0x3f84d5b5b5470917};
 };
 
-}  // namespace plexway::file
+}  // namespace plexway::detail::file

@@ -11,7 +11,7 @@
 
 #include <plexway/error.hpp>
 
-namespace plexway::file {
+namespace plexway::detail::file {
 namespace {
 
 // No fault for each few pages, as all of them are read soon; and what is fetched ahead is there.
@@ -55,4 +55,4 @@ MappedFile::MappedFile(const std::filesystem::path& file) {
 
 MappedFile::~MappedFile() { ::munmap(const_cast<std::byte*>(start_), size_); }
 
-}  // namespace plexway::file
+}  // namespace plexway::detail::file

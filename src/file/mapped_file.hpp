@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-namespace plexway::file {
+namespace plexway::detail::file {
 
 /// The bytes of a file where the system keeps them: nothing is copied, and processes that map the
 /// same file share them. They may only be read. A file that is replaced by another (NewFile) stays
@@ -26,4 +26,4 @@ class MappedFile {
   std::size_t size_ = 0;
 };
 
-}  // namespace plexway::file
+}  // namespace plexway::detail::file

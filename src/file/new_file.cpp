@@ -16,7 +16,7 @@
 
 #include "file/standard_output.hpp"
 
-namespace plexway::file {
+namespace plexway::detail::file {
 namespace {
 
 // Who takes a name out of its place owns it. Never destroyed: a handler may come at any time.
@@ -270,4 +270,4 @@ void NewFile::refuse(const std::string& reason) {
   throw Error("cannot write " + given_.string() + ": " + reason);
 }
 
-}  // namespace plexway::file
+}  // namespace plexway::detail::file

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace plexway::file {
+namespace plexway::detail::file {
 
 /// A temporary file that whoever ends this process by a signal should see removed. A list for the
 /// whole process, of 64 at most; what does not fit is not on it.
@@ -92,4 +92,4 @@ class NewFile {
 /// Where a chain of symbolic links ends, be there a file or not. Throws std::system_error.
 std::filesystem::path end_of_links(std::filesystem::path file);
 
-}  // namespace plexway::file
+}  // namespace plexway::detail::file

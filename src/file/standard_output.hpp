@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace plexway::file {
+namespace plexway::detail::file {
 
 /// Thrown where the reader of standard output went away: no error, but no reason to go on.
 struct OutputClosed {};
@@ -17,4 +17,4 @@ inline std::string_view format_on_standard_output(std::string_view name) {
   return name;
 }
 
-}  // namespace plexway::file
+}  // namespace plexway::detail::file

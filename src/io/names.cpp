@@ -21,14 +21,14 @@ std::string lower_case(std::string_view text) {
 
 std::string lower_extension(const std::filesystem::path& file) {
   const std::string name = file.string();
-  if (const auto format = file::format_on_standard_output(name); !format.empty())
+  if (const auto format = plexway::detail::file::format_on_standard_output(name); !format.empty())
     return std::string(1, '.').append(format);
   return lower_case(file.extension().string());
 }
 
 std::string unknown_extension(const std::filesystem::path& file,
                               std::span<const std::string_view> known) {
-  const bool stream = !file::format_on_standard_output(file.string()).empty();
+  const bool stream = !plexway::detail::file::format_on_standard_output(file.string()).empty();
   const std::string extension = stream ? lower_extension(file) : file.extension().string();
   std::string message = file.string() + ": ";
   message += extension.empty() ? "no extension" : "unknown extension " + quote(extension);
@@ -123,7 +123,7 @@ std::vector<fs::path> written_files_of(const fs::path& name) {
 // Where it lies once all links are followed, be there a file or not.
 fs::path place_of(const fs::path& name) {
   try {
-    return fs::weakly_canonical(fs::absolute(file::end_of_links(name)));
+    return fs::weakly_canonical(fs::absolute(plexway::detail::file::end_of_links(name)));
   } catch (const std::system_error&) {
     return name.lexically_normal();  // who writes it will say what is wrong
   }
@@ -139,7 +139,7 @@ bool one_file(const fs::path& a, const fs::path& b) {
 }  // namespace
 
 bool on_standard_output(const std::string& out) {
-  return out == "-" || !file::format_on_standard_output(out).empty();
+  return out == "-" || !plexway::detail::file::format_on_standard_output(out).empty();
 }
 
 void check_output_place(const std::string& out, std::span<const std::string> inputs,

@@ -88,7 +88,7 @@ class OutputFile {
       file_.refuse(failed);
   }
 
-  file::NewFile file_;
+  plexway::detail::file::NewFile file_;
   std::string buffer_;
   std::size_t used_ = 0;
 };

@@ -4,7 +4,7 @@
 #include <limits>
 
 /// Floor 0: the geometry of one update, by hinge dimension K and number type Real. No dependency.
-namespace plexway::kernel {
+namespace plexway::detail::kernel {
 
 // The GLSL built-ins the kernel text uses. As in shaders, a NaN in the second argument of max is
 // dropped. A SIMD Real brings its own, found by argument-dependent lookup.
@@ -42,4 +42,4 @@ struct HingeKernel {
 
 #include "kernel/text_end.inl"
 
-}  // namespace plexway::kernel
+}  // namespace plexway::detail::kernel

@@ -15,7 +15,7 @@
 
 /// Four numbers at once, as a Real for the hinge kernel. Vector extensions of gcc and clang, so one
 /// text serves every processor they know.
-namespace plexway::kernel {
+namespace plexway::detail::kernel {
 
 template <class Real>
 struct LaneTypes;
@@ -113,9 +113,9 @@ template <class Mask>
 #endif
 }
 
-}  // namespace plexway::kernel
+}  // namespace plexway::detail::kernel
 
 template <class Real>
-struct std::numeric_limits<plexway::kernel::Lanes<Real>> : std::numeric_limits<Real> {};
+struct std::numeric_limits<plexway::detail::kernel::Lanes<Real>> : std::numeric_limits<Real> {};
 
 #pragma GCC diagnostic pop

@@ -187,7 +187,7 @@ class Leader {
     const std::scoped_lock lock(finishing_);
     report_.rows += done.rows;
     report_.complete = report_.complete && done.complete;
-    apps::add(report_.statistics, done.statistics);
+    detail::apps::add(report_.statistics, done.statistics);
   }
 
   // Takes a message, if there is one.
@@ -366,7 +366,7 @@ void Ranks::once_a_node(const std::function<void(const std::filesystem::path&)>&
     explicit Removed(const std::filesystem::path& name) : path(name.string()) {}
     ~Removed() { ::unlink(path.c_str()); }
     const std::string path;
-    const file::Unfinished by_signals{path.c_str()};
+    const detail::file::Unfinished by_signals{path.c_str()};
   };
   std::optional<Removed> made;
   if (state_->rank_on_node == 0) {

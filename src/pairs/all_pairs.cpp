@@ -24,9 +24,10 @@ struct DenseWorker {
   DistanceField<Real> field = {};
   std::vector<Real> chosen = {};
 
-  void solve(const apps::RowSource& source, std::size_t row, const PropagateOptions& options) {
+  void solve(const detail::apps::RowSource& source, std::size_t row,
+             const PropagateOptions& options) {
     plexway::solve(Serial{}, domain, source.list(), options, workspace, field);
-    apps::add(report.statistics, field.statistics);
+    detail::apps::add(report.statistics, field.statistics);
     report.complete = report.complete && field.complete;
     if (request.columns.empty()) {
       sink.row(row, field.distance);
@@ -44,10 +45,11 @@ template <RowExecutor E, DomainType D>
 PairsReport all_pairs(const E& executor, const D& domain, const PairsRequest& request,
                       const PairsSink<DenseRow<RealOf<D>>>& sink) {
   using Worker = DenseWorker<D>;
-  apps::check(request, domain.vertex_count());
-  return apps::deal_rows<E, Worker>(executor, domain.vertex_count(), request, sink.block, [&] {
-    return std::unique_ptr<Worker>(new Worker{domain, request, sink});
-  });
+  detail::apps::check(request, domain.vertex_count());
+  return detail::apps::deal_rows<E, Worker>(
+      executor, domain.vertex_count(), request, sink.block, [&] {
+        return std::unique_ptr<Worker>(new Worker{domain, request, sink});
+      });
 }
 
 #define PLEXWAY_PAIRS(...)                                                               \

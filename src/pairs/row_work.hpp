@@ -19,7 +19,7 @@
 
 /// What dense and sparse matrices have in common: which rows, dealt to whom, and when a block is
 /// through.
-namespace plexway::apps {
+namespace plexway::detail::apps {
 
 inline std::size_t threads_of(const Serial&) { return 1; }
 inline std::size_t threads_of(const OpenMP& executor) { return team_size(executor); }
@@ -211,4 +211,4 @@ PairsReport deal_rows(const E& executor, std::size_t vertices, const PairsReques
   return report;
 }
 
-}  // namespace plexway::apps
+}  // namespace plexway::detail::apps

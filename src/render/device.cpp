@@ -12,8 +12,8 @@
 namespace plexway::render {
 namespace {
 
-const gl::Display& choose(int number) {
-  const auto& all = gl::displays();
+const detail::gl::Display& choose(int number) {
+  const auto& all = detail::gl::displays();
   if (number >= 0) {
     if (static_cast<std::size_t>(number) < all.size()) return all[static_cast<std::size_t>(number)];
     throw UsageError("there is no device " + std::to_string(number) + ", only 0 to " +
@@ -21,10 +21,10 @@ const gl::Display& choose(int number) {
   }
   std::string problems;
   for (const bool software : {false, true})
-    for (const gl::Display& display : all) {
+    for (const detail::gl::Display& display : all) {
       if (display.software != software) continue;
       try {
-        const gl::NativeContext works(display);
+        const detail::gl::NativeContext works(display);
         return display;
       } catch (const NotBuiltError& error) {
         problems += std::string("; ") + error.what();

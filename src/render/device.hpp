@@ -94,8 +94,8 @@ class Device {
   GLuint program(std::initializer_list<const char*> shaders);
 
  private:
-  gl::NativeContext native_;
-  gl::MakeCurrent current_;
+  detail::gl::NativeContext native_;
+  detail::gl::MakeCurrent current_;
   GLuint program_ = 0;
 };
 

@@ -4,7 +4,7 @@
 
 namespace plexway::render {
 
-using gl::ShaderText;
+using detail::gl::ShaderText;
 extern const ShaderText shader_texts[];
 extern const std::size_t shader_text_count;
 

@@ -5,8 +5,7 @@
 #include <numbers>
 #include <utility>
 
-namespace plexway::strings {
-using namespace detail;
+namespace plexway::detail::strings {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -219,4 +218,4 @@ Boundary find_boundary(const TetMesh<Real>& mesh, std::span<const Point> points)
 template Boundary find_boundary(const TetMesh<float>&, std::span<const Point>);
 template Boundary find_boundary(const TetMesh<double>&, std::span<const Point>);
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -10,7 +10,7 @@
 #include "strings/place.hpp"
 
 /// The boundary of a solid as strings see it: faces, what joins them, and where strings may bend.
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 /// What counts as flat. Coordinates are in double, in mean edges.
 struct Tolerances {
@@ -42,4 +42,4 @@ struct Boundary {
 template <class Real>
 Boundary find_boundary(const TetMesh<Real>& mesh, std::span<const Point> points);
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

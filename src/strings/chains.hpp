@@ -8,7 +8,7 @@
 
 /// Chains of places that strings bend at, from a source on. Each is kept once, as the chain before
 /// it and one more place, so that two strings along the same places have the same number.
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 class Chains {
  public:
@@ -72,4 +72,4 @@ class Chains {
   std::vector<Index> table_;  // open addressing; a power of two
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace plexway::strings {
+namespace plexway::detail::strings {
 namespace {
 
 constexpr double angle_slack = 1e-6;  // of angles
@@ -96,4 +96,4 @@ bool Corner::find_other(const SolidSpace& space) {
   return true;
 }
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

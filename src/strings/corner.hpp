@@ -7,7 +7,7 @@
 #include "strings/solid_space.hpp"
 
 /// Ways around a vertex of the boundary.
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 /// The solid near a vertex as seen from there: directions, and the faces between them. Strings turn
 /// about rows of edges; unfolded, a way from one direction to another is as long as its angles.
@@ -48,4 +48,4 @@ class Corner {
   double turned_ = 0;
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

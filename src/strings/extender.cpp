@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 void Extender::expand(Index node, const Label& label, Offers& offers) {
   // Pulled anew, whoever took it on before: so that threads do not matter.
@@ -215,4 +215,4 @@ void Extender::accept(const Attempt& a, Index to, Offers& offers) {
         knots[last].slowness * norm(knots[last + 1].at - knots[last].at), media_of(a)}});
 }
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -10,7 +10,7 @@
 #include "strings/state.hpp"
 
 /// Takes the strings of a node on to others.
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 /// A string goes on to a node that shares an edge, through each place of the point as well. It is
 /// pulled taut; where it leaves a patch it slides on to the row there, where it wants back in it is
@@ -134,4 +134,4 @@ class Extender {
   double direct_ = 0;  // on from there along the edge: a string that is offered is no longer
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

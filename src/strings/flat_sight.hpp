@@ -15,9 +15,7 @@
 
 /// What hides one point of a flat domain of any dimension from another. As Sight (sight.hpp), but
 /// for how the first touch is found.
-namespace plexway::strings {
-using namespace detail;
-
+namespace plexway::detail::strings {
 /// A point of R^N.
 template <int N>
 using FlatPoint = std::array<double, N>;
@@ -223,4 +221,4 @@ class FlatSight {
   BoxTree<N> tree_;
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -16,9 +16,7 @@
 
 /// Shortest paths in flat domains of any dimension by strings, as Solver (solve.hpp) in solids:
 /// places are faces of N - 2 dimensions.
-namespace plexway::strings {
-using namespace detail;
-
+namespace plexway::detail::strings {
 /// A vertex as a source, or one that a path goes on from.
 struct FlatRoot {
   Index vertex;
@@ -366,4 +364,4 @@ class FlatSolver {
   Counts counts_;
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -10,9 +10,7 @@
 #include "strings/flat_sight.hpp"
 
 /// A flat domain as strings see it, in any dimension: what SolidSpace is of a solid.
-namespace plexway::strings {
-using namespace detail;
-
+namespace plexway::detail::strings {
 template <int N>
 class FlatSpace {
  public:
@@ -284,4 +282,4 @@ class FlatSpace {
   std::vector<Wedge> wedges_;                   // by face
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

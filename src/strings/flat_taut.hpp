@@ -8,9 +8,7 @@
 
 #include "complexes/simplicial/flat_domain.hpp"
 
-namespace plexway::strings {
-using namespace detail;
-
+namespace plexway::detail::strings {
 /// The shortest string between two points over given bending faces, in their order. Between faces
 /// nothing is in its way: that is for others to see to.
 ///
@@ -244,4 +242,4 @@ class Taut {
   std::size_t count_ = 0;
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

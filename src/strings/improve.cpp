@@ -3,7 +3,7 @@
 
 #include "strings/extender.hpp"
 
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 // Where a string is held at a vertex it may be shorter past it.
 void Extender::past_corners(Attempt& a, Index to, Outcome& outcome) {
@@ -140,4 +140,4 @@ Extender::Outcome Extender::improve(Attempt& a, Index to, Outcome outcome) {
   return outcome;
 }
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

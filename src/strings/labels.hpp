@@ -15,7 +15,7 @@
 #include "strings/place.hpp"
 
 /// What vertices know of the strings that reach them.
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 /// Of unit vectors.
 inline double cosine_of(const Point& a, const Point& b) { return dot(a, b); }
@@ -216,4 +216,4 @@ struct VertexLabelsIn {
 
 using VertexLabels = VertexLabelsIn<Point>;
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

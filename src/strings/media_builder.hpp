@@ -11,9 +11,7 @@
 #include "strings/media_space.hpp"
 
 /// How a MediaSpace is made: media first, then the places where strings go from one to another.
-namespace plexway::strings {
-using namespace detail;
-
+namespace plexway::detail::strings {
 using Triple = std::array<Index, 3>;
 using Edge = std::array<Index, 2>;
 inline Edge edge_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
@@ -372,4 +370,4 @@ struct MediaSpace::Builder {
   [[nodiscard]] Boundary::Wedge wedge_of(Index t, const Edge& edge) const;
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

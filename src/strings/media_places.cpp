@@ -1,8 +1,6 @@
 #include "strings/media_builder.hpp"
 
-namespace plexway::strings {
-using namespace detail;
-
+namespace plexway::detail::strings {
 void MediaSpace::Builder::find_patches() {
   std::map<Edge, std::vector<Index>> at;
   for (Index i = 0; i < interfaces.size(); ++i)
@@ -209,4 +207,4 @@ Boundary::Wedge MediaSpace::Builder::wedge_of(Index t, const Edge& edge) const {
   return {{inward(side[0], side[1]), inward(side[1], side[0])}, strings::unit(side[0] + side[1])};
 }
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -8,7 +8,7 @@
 
 #include "strings/media_builder.hpp"
 
-namespace plexway::strings {
+namespace plexway::detail::strings {
 std::vector<Index> covered_by(const Parts& parts) {
   std::vector<std::pair<Triple, Index>> faces;
   for (Index f = 0; f < parts.faces.size(); ++f) faces.push_back({sorted(parts.faces[f]), f});
@@ -211,4 +211,4 @@ Point MediaSpace::beside(Index place, Index medium, const Point& at, const Point
   return at;
 }
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -9,7 +9,7 @@
 #include "strings/solid_space.hpp"
 
 /// Media in one space: solids of one speed each, straight wires and flat sheets.
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 /// What a space is made of: simplices of one numbering of points, each with the time that a unit of
 /// length takes.
@@ -211,4 +211,4 @@ class MediaSpace {
   std::vector<Boundary::Wedge> wedges_;
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

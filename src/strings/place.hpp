@@ -9,9 +9,7 @@
 #include <plexway/solid/detail/tet_record.hpp>
 
 /// Where strings bend: straight rows of edges with more than pi of solid around them, and vertices.
-namespace plexway::strings {
-using namespace detail;
-
+namespace plexway::detail::strings {
 using Point = Vector3<double>;
 
 /// `a` over its length; 0 for 0.
@@ -123,4 +121,4 @@ struct Place {
   }
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

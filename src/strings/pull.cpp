@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace plexway::strings {
+namespace plexway::detail::strings {
 namespace {
 
 constexpr double outward = 1e-7;  // of the gradient, at an end
@@ -394,4 +394,4 @@ bool is_at_rest(const Place& one, const Point& in, const Place& two, const Point
   return dot(least, least) <= slow * slow * (1 + 1e-6);
 }
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -7,7 +7,7 @@
 #include "strings/strip.hpp"
 
 /// Pulling strings taut.
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 /// Makes strings as short as they can be along their places. The length is convex in where they
 /// bend, and each bend knows its neighbours alone: Newton's method on a block tridiagonal system,
@@ -52,4 +52,4 @@ class Puller {
 [[nodiscard]] bool is_at_rest(const Place& one, const Point& in, const Place& two, const Point& out,
                               double slow);
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

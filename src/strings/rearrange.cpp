@@ -3,7 +3,7 @@
 
 #include "strings/extender.hpp"
 
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 // Would a string through a point, that comes and goes in these directions, be shorter through doors
 // there? A problem of its own, with legs of length 1 and places that have no ends. At a row patches
@@ -272,4 +272,4 @@ bool Extender::rearrange(Attempt& a, Index to, bool& useless) {
   return false;
 }
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 Point Extender::end_of_leg(const Attempt& a, std::size_t k, std::size_t other, Index to) const {
   const auto& knots = a.string.knots;
@@ -160,4 +160,4 @@ Extender::Outcome Extender::settle(Attempt& a, Index to, double least) {
   return Outcome::stuck;
 }
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -4,8 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace plexway::strings {
-using namespace detail;
+namespace plexway::detail::strings {
 namespace {
 
 std::array<double, 3> coordinates(const Point& p) { return {p.x, p.y, p.z}; }
@@ -193,4 +192,4 @@ std::optional<Sight::Touch> Sight::highest(const Point& from, const Point& to, c
   return best;
 }
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

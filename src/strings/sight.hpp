@@ -11,9 +11,7 @@
 
 /// What hides one point of a solid from another, and what a string touches first where it is moved
 /// from a free place to one that is hidden.
-namespace plexway::strings {
-using namespace detail;
-
+namespace plexway::detail::strings {
 /// A straight leg is free if it leaves the solid nowhere: so only the boundary is looked at, and of
 /// that only faces that have some of the solid behind their plane. A convex solid has none.
 class Sight {
@@ -66,4 +64,4 @@ class Sight {
   BoxTree<3> tree_;
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

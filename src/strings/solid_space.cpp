@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 template <class Real>
 SolidSpace::SolidSpace(const TetMesh<Real>& mesh)
@@ -165,4 +165,4 @@ template SolidSpace::SolidSpace(const TetMesh<double>&);
 template SolidSpace::SolidSpace(const TetMesh<float>&, std::vector<Point>);
 template SolidSpace::SolidSpace(const TetMesh<double>&, std::vector<Point>);
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -12,7 +12,7 @@
 #include "strings/sight.hpp"
 
 /// A flat solid as strings see it. What follows from the mesh alone, so that solves share it.
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 class SolidSpace {
  public:
@@ -107,4 +107,4 @@ class SolidSpace {
   std::vector<Cone> cones_;
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 void Solver::measure_reach() {
   auto& reach = state_.reach;
@@ -270,4 +270,4 @@ std::size_t Solver::bytes() const {
          of(state_.roots) + offers;
 }
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

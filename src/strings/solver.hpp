@@ -14,7 +14,7 @@
 /// A string is a source and a chain of doors: places where it bends or goes into another medium,
 /// and the medium behind. In the order of their distance nodes offer theirs to those that share an
 /// edge. All distances are lengths of paths.
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 class Solver {
  public:
@@ -94,4 +94,4 @@ class Solver {
   Counts counts_;
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -14,7 +14,7 @@
 #include "strings/media_space.hpp"
 
 /// What is known while strings are looked for: sources, chains, and the strings of each node.
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 /// A point as one of a simplex.
 struct Inside {
@@ -148,4 +148,4 @@ struct State {
   }
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

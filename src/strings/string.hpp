@@ -6,7 +6,7 @@
 
 #include "strings/place.hpp"
 
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 /// A leg of a string on its way to a new end, from where it was free.
 struct Leg {
@@ -50,4 +50,4 @@ struct String {
   }
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 namespace {
 
@@ -102,4 +102,4 @@ std::size_t Strip::pull(String& string, std::size_t first) {
   return last + 1;
 }
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -5,7 +5,7 @@
 
 #include "strings/string.hpp"
 
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 /// Rows of edges one after another, each of which shares a vertex with the next: unfolded into a
 /// plane, the shortest way across them is a straight line, or turns at vertices. It is found as Lee
@@ -38,4 +38,4 @@ class Strip {
   std::vector<Portal> portals_;
 };
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

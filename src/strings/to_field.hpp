@@ -13,7 +13,7 @@
 #include "strings/labels.hpp"
 
 /// Between strings and the library's options and fields.
-namespace plexway::strings {
+namespace plexway::detail::strings {
 
 /// Of a solve in a domain of so many simplices, in units; its progress throws Cancelled. As long as
 /// the options.
@@ -57,4 +57,4 @@ void to_field(const Solver& solver, std::size_t vertices, const Number& number, 
   field.statistics.updates = solver.counts().labels;
 }
 
-}  // namespace plexway::strings
+}  // namespace plexway::detail::strings

@@ -18,8 +18,7 @@
 #include "shape/info/solve_words.hpp"
 #include "tool/report/console.hpp"
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 std::string version_text() {
@@ -199,4 +198,4 @@ int run(int argc, const char* const* argv, const Among* among) noexcept {
   }
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -14,7 +14,7 @@ namespace CLI {
 class App;
 }
 
-namespace plexway::cli {
+namespace plexway::detail::cli {
 
 struct Among;
 
@@ -107,4 +107,4 @@ std::string help_page(const CLI::App& tool, std::string_view kind);
 /// most 25 lines of 80 columns. Of the tool itself its commands. `--help` has everything.
 std::string short_help(const CLI::App& app);
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

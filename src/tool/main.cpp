@@ -1,3 +1,3 @@
 #include "tool/app.hpp"
 
-int main(int argc, char** argv) { return plexway::cli::run(argc, argv); }
+int main(int argc, char** argv) { return plexway::detail::cli::run(argc, argv); }

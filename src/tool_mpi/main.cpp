@@ -24,12 +24,12 @@ int ended(Ranks& ranks, int code, const char* message) {
       const Ranks::Verdict& absence = absent.verdict();
       if (absence.code != 0) return absence.code;
       // It was through with other work, and this one's is not done.
-      plexway::cli::say_error("another rank took no part: all ranks need the same command");
+      plexway::detail::cli::say_error("another rank took no part: all ranks need the same command");
       return 2;
     } catch (...) {
       verdict = ranks.fail_together(code);
       if (!verdict) {
-        plexway::cli::say_error(message);
+        plexway::detail::cli::say_error(message);
         ranks.end_all(code);
       }
     }
@@ -37,9 +37,9 @@ int ended(Ranks& ranks, int code, const char* message) {
     verdict = ranks.stay_away(code);
   }
   if (code != 0 && verdict->rank == ranks.rank())
-    plexway::cli::say_error(ranks.leads()
-                                ? std::string(message)
-                                : "rank " + std::to_string(ranks.rank()) + ": " + message);
+    plexway::detail::cli::say_error(ranks.leads()
+                                        ? std::string(message)
+                                        : "rank " + std::to_string(ranks.rank()) + ": " + message);
   return verdict->code;
 }
 
@@ -48,7 +48,7 @@ int ended(Ranks& ranks, int code, const char* message) {
 int main(int argc, char** argv) {
   try {
     Ranks ranks(argc, argv);
-    using Among = plexway::cli::Among;
+    using Among = plexway::detail::cli::Among;
     Among among{ranks,
                 ranks,
                 ranks.threads(),
@@ -59,9 +59,9 @@ int main(int argc, char** argv) {
       among.once_a_node = [&](const Among::WithFile& make, const Among::WithFile& take) {
         ranks.once_a_node(make, take);
       };
-    return plexway::cli::run(argc, argv, &among);
+    return plexway::detail::cli::run(argc, argv, &among);
   } catch (const std::exception& error) {
-    plexway::cli::say_error(error.what());
+    plexway::detail::cli::say_error(error.what());
     return 1;
   }
 }

@@ -10,7 +10,7 @@
 
 #include <plexway/common/ids.hpp>
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 
 /// What waits, nearest first by buckets of equal width: a ring of lists through `next`, which
 /// belongs to the nodes (pool slots, halfedges or vertices, as the caller likes). No heap. A bucket
@@ -194,4 +194,4 @@ class BucketRing {
   double nearest_far_ = 0;
 };
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -6,9 +6,7 @@
 
 #include <plexway/surface/detail/triangle_record.hpp>
 
-namespace plexway::windows {
-using namespace detail;
-
+namespace plexway::detail::windows {
 /// The halfedge that an Across leads to, 4 f + i.
 [[nodiscard]] constexpr Index halfedge_of(Index across) {
   return across >> Across::face_shift << 2 | (across & Across::edge_mask);
@@ -53,4 +51,4 @@ template <class Real>
   return gain / (2 * sum);
 }
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -4,8 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace plexway::windows {
-using namespace detail;
+namespace plexway::detail::windows {
 namespace {
 
 /// Of an edge, or as a sine: less is nothing.
@@ -91,4 +90,4 @@ template void CurveLights::add_curve(const TriangleMesh<double>&, std::span<cons
 template void CurveLights::add_face(const TriangleMesh<float>&, Index, double, Index);
 template void CurveLights::add_face(const TriangleMesh<double>&, Index, double, Index);
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

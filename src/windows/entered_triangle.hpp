@@ -7,9 +7,7 @@
 
 #include <plexway/surface/detail/triangle_record.hpp>
 
-namespace plexway::windows {
-using namespace detail;
-
+namespace plexway::detail::windows {
 /// A source seen from an edge: at (x, -h), `begin` to `end` of the edge in its light. Or, where h
 /// is below 0, the light of a straight line, which is parallel: it travels by (x, -h), a unit
 /// vector. Turning the frame does the same to both.
@@ -129,4 +127,4 @@ struct EnteredTriangle {
   }
 };
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -1,7 +1,7 @@
 // Where exact windows begin: at the sources, at messages, and again at what no window reached. Part
 // of exact_windows.cpp.
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 
 template <class Real>
 void ExactWindows<Real>::begin(const WindowSources& sources, const PropagateOptions& options,
@@ -111,4 +111,4 @@ bool ExactWindows<Real>::fill_holes(Order& order) {
       [&](Index v, Index w, double way) { offer(order, w, way, {}, source(v)); });
 }
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

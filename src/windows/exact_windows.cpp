@@ -8,8 +8,7 @@
 
 #include "windows/cross_edge.hpp"
 
-namespace plexway::windows {
-using namespace detail;
+namespace plexway::detail::windows {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -458,13 +457,13 @@ std::size_t ExactWindows<Real>::bytes() const {
          of(node_source_) + of(corners_) + leaving_.bytes();
 }
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows
 
 #include "windows/exact_seeds.inl"
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 
 template class ExactWindows<float>;
 template class ExactWindows<double>;
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -19,9 +19,7 @@
 #include "windows/vertex_angles.hpp"
 #include "windows/window_sources.hpp"
 
-namespace plexway::windows {
-using namespace detail;
-
+namespace plexway::detail::windows {
 /// What a solve by windows may take before it is given up.
 struct Patience {
   std::size_t windows = 0;  ///< propagated in all
@@ -218,4 +216,4 @@ class ExactWindows {
 extern template class ExactWindows<float>;
 extern template class ExactWindows<double>;
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

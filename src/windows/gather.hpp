@@ -5,7 +5,7 @@
 
 #include "windows/overlay.hpp"
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 
 /// The windows of one edge, made as few as the limit allows.
 template <class Real>
@@ -82,4 +82,4 @@ class Gathered : public Overlay<Real> {
   Real length_ = 0, scale_ = 0;
 };
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -8,7 +8,7 @@
 
 #include "windows/entered_triangle.hpp"
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 
 /// All windows that had their turn in a solve, by the halfedge that they entered by: what distances
 /// inside triangles are read from.
@@ -61,4 +61,4 @@ class KeptWindows {
   std::vector<Kept> windows_;
 };
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -7,7 +7,7 @@
 #include "kernel/lanes.hpp"
 #include "windows/entered_triangle.hpp"
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 
 /// The light of one source on a part of an edge: 32 bytes in float.
 template <class Real>
@@ -146,4 +146,4 @@ template <class Real>
   return true;
 }
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

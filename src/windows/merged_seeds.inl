@@ -1,7 +1,7 @@
 // Where merged windows begin and end: at the sources, at messages, and again at what no window
 // reached; what they hold. Part of merged_windows.cpp.
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 
 template <class Real>
 void MergedWindows<Real>::begin(const WindowSources& sources, const PropagateOptions& options,
@@ -168,4 +168,4 @@ std::size_t MergedWindows<Real>::bytes() const {
          of(corners_) + leaving_.bytes();
 }
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

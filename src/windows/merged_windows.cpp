@@ -10,8 +10,7 @@
 
 #include "windows/cross_edge.hpp"
 
-namespace plexway::windows {
-using namespace detail;
+namespace plexway::detail::windows {
 namespace {
 
 template <class Real>
@@ -480,12 +479,12 @@ void MergedWindows<Real>::shine(Order& order, Index vertex, const Arrival<float>
   }
 }
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows
 
 #include "windows/merged_seeds.inl"
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 template class MergedWindows<float>;
 template class MergedWindows<double>;
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

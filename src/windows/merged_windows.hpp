@@ -27,9 +27,7 @@
 #include "windows/waiting_table.hpp"
 #include "windows/window_sources.hpp"
 
-namespace plexway::windows {
-using namespace detail;
-
+namespace plexway::detail::windows {
 /// The triangles that a point of f lies in: calls visit(f, barycentric, 3) and, where it lies on an
 /// edge, visit(g, barycentric, k) for the others there; edge k of g is that one.
 template <class Real, class Visit>
@@ -287,4 +285,4 @@ class MergedWindows {
 extern template class MergedWindows<float>;
 extern template class MergedWindows<double>;
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

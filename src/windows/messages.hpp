@@ -9,7 +9,7 @@
 #include "windows/merge.hpp"
 #include "windows/pseudo_source.hpp"
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 
 /// What one piece tells another: a window that enters there, or how far a vertex is that both have,
 /// where its path comes from, and what merging may have cost.
@@ -74,4 +74,4 @@ struct Leaving {
   std::vector<std::uint8_t> is_sent_;
 };
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -7,7 +7,7 @@
 #include <plexway/common/ids.hpp>
 #include <plexway/solve/options.hpp>
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 
 /// First in, first out, with the interface of BucketRing.
 class FirstIn {
@@ -82,4 +82,4 @@ auto in_order(Schedule schedule, NearestOfAll& nearest, Ring& ring, const Work& 
   }
 }
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -9,7 +9,7 @@
 #include "kernel/lanes.hpp"
 #include "windows/merge.hpp"
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 
 /// A window and the number of the source that it began at.
 template <class Real>
@@ -146,4 +146,4 @@ class Overlay {
   Real begin_ = 0, end_ = 0;
 };
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -13,9 +13,7 @@
 #include "windows/window_patches.hpp"
 #include "windows/window_piece.hpp"
 
-namespace plexway::windows {
-using namespace detail;
-
+namespace plexway::detail::windows {
 /// Windows on a surface in pieces, with what ExactWindows and MergedWindows tell after a solve.
 template <class Real, class Windows>
 class PiecedWindows {
@@ -192,4 +190,4 @@ class PiecedWindows {
   std::vector<Index> source_;
 };
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -7,9 +7,7 @@
 
 #include "windows/entered_triangle.hpp"
 
-namespace plexway::windows {
-using namespace detail;
-
+namespace plexway::detail::windows {
 /// A corner of a triangle on a walk around its vertex: entered by one of the two edges that meet
 /// there, left by the other. Sheets that turn over are walked like any other.
 struct FanWalk {
@@ -166,4 +164,4 @@ class PseudoSource {
   std::span<const TriangleRecord<Real>> triangles_;
 };
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

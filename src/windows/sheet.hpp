@@ -14,9 +14,7 @@
 #include "windows/vertex_angles.hpp"
 #include "windows/window_sources.hpp"
 
-namespace plexway::windows {
-using namespace detail;
-
+namespace plexway::detail::windows {
 /// What windows run over: a surface, or a piece of one by numbers of its own. Of a piece the
 /// triangles around its vertices that are other pieces' (ghosts) are there to be gone around; a
 /// window that enters one leaves the piece.
@@ -102,4 +100,4 @@ void for_each_seed(const TriangleMesh<Real>& mesh, const WindowSources& sources,
   }
 }
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -13,7 +13,7 @@
 #include "labels/surface/repair_surface.hpp"
 #include "windows/window_solver.hpp"
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 
 template <class Real>
 template <class Scheduler>
@@ -180,4 +180,4 @@ bool WindowSolver<Real>::solve_by(const Scheduler& scheduler, const WindowSource
   return true;
 }
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

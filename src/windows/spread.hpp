@@ -7,7 +7,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // as in kernel/lanes.hpp
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 
 /// A window's light through a triangle, onto both edges it may leave by, at once: lanes left near,
 /// left far, right near, right far. Each edge is measured from its pivot, A or B, so that left and
@@ -107,6 +107,6 @@ struct Spread {
   }
 };
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows
 
 #pragma GCC diagnostic pop

@@ -4,9 +4,7 @@
 #include <limits>
 #include <numbers>
 
-namespace plexway::windows {
-using namespace detail;
-
+namespace plexway::detail::windows {
 namespace {
 
 /// Boundaries that turn by more than this bend paths, radians.
@@ -56,4 +54,4 @@ VertexAngles vertex_angles(const TriangleMesh<Real>& mesh) {
 template VertexAngles vertex_angles(const TriangleMesh<float>&);
 template VertexAngles vertex_angles(const TriangleMesh<double>&);
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -6,7 +6,7 @@
 
 #include <plexway/surface/triangle_mesh.hpp>
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 
 /// How much room there is around each vertex, in the numbers inside.
 struct VertexAngles {
@@ -32,4 +32,4 @@ struct VertexAngles {
 template <class Real>
 VertexAngles vertex_angles(const TriangleMesh<Real>& mesh);
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

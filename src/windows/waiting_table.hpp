@@ -5,7 +5,7 @@
 
 #include <plexway/common/ids.hpp>
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 
 /// What waits at a place, a halfedge (4 f + i) or a vertex: a table of the few where anything does,
 /// not a number for each of all (24 bytes a vertex, and 4). Of places 64 that follow each other
@@ -77,4 +77,4 @@ class WaitingTable {
   int shift_ = 32 - least;
 };
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

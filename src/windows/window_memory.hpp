@@ -5,10 +5,10 @@
 
 #include <plexway/surface/triangle_mesh.hpp>
 
-namespace plexway::windows {
+namespace plexway::detail::windows {
 template <class Real>
 class WindowSolver;
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows
 
 namespace plexway::detail {
 

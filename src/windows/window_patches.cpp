@@ -5,8 +5,7 @@
 #include "labels/pieces/piece_records.hpp"
 #include "labels/pieces/triangle_patches.hpp"
 
-namespace plexway::windows {
-using namespace detail;
+namespace plexway::detail::windows {
 namespace {
 
 template <class Real>
@@ -128,4 +127,4 @@ std::size_t WindowPatches<Real>::bytes() const {
 template class WindowPatches<float>;
 template class WindowPatches<double>;
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -11,9 +11,7 @@
 #include "windows/sheet.hpp"
 #include "windows/vertex_angles.hpp"
 
-namespace plexway::windows {
-using namespace detail;
-
+namespace plexway::detail::windows {
 /// A vertex or a triangle of a piece: by the piece's number, or in a patch by its place among the
 /// peers.
 struct PatchPlace {
@@ -93,4 +91,4 @@ class WindowPatches {
 extern template class WindowPatches<float>;
 extern template class WindowPatches<double>;
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -12,9 +12,7 @@
 #include "windows/messages.hpp"
 #include "windows/window_patches.hpp"
 
-namespace plexway::windows {
-using namespace detail;
-
+namespace plexway::detail::windows {
 /// A piece of a surface in solves by windows, exact or merged: what Supersteps asks of one.
 /// Messages are windows that enter a ghost, for the piece that it belongs to, and vertices that got
 /// nearer, for all that have them; each then goes around a vertex, and lights up its own triangles.
@@ -156,4 +154,4 @@ template <class Windows, class Pieces>
   }
 }
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -7,8 +7,7 @@
 
 #include "windows/solve_by.inl"
 
-namespace plexway {
-using namespace detail;
+namespace plexway::detail {
 
 namespace windows {
 
@@ -89,8 +88,6 @@ template bool WindowSolver<double>::solve_by(const Alone&, const WindowSources&,
 
 }  // namespace windows
 
-namespace detail {
-
 template <class Real>
 WindowMemory<Real>::WindowMemory() noexcept = default;
 template <class Real>
@@ -118,6 +115,4 @@ std::size_t WindowMemory<Real>::bytes() const {
 template class WindowMemory<float>;
 template class WindowMemory<double>;
 
-}  // namespace detail
-
-}  // namespace plexway
+}  // namespace plexway::detail

@@ -19,9 +19,7 @@
 #include "windows/vertex_angles.hpp"
 #include "windows/window_sources.hpp"
 
-namespace plexway::windows {
-using namespace detail;
-
+namespace plexway::detail::windows {
 /// Distances on a surface by windows, one solve after the other, by one thread or by a scheduler.
 /// Keeps what depends on the surface alone, and its memory.
 template <class Real>
@@ -101,4 +99,4 @@ extern template bool WindowSolver<double>::solve_by(const Alone&, const WindowSo
                                                     WorkspaceState<double>&,
                                                     DistanceField<double>&);
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

@@ -12,9 +12,7 @@
 #include "windows/entered_triangle.hpp"
 #include "windows/merge.hpp"
 
-namespace plexway::windows {
-using namespace detail;
-
+namespace plexway::detail::windows {
 /// Parallel light that a straight line sends over an edge of a triangle. Numbers and unit inside.
 struct LineLight {
   Index face, edge;
@@ -74,4 +72,4 @@ struct WindowSources {
   [[nodiscard]] bool only_points() const { return lights.empty() && corners.empty(); }
 };
 
-}  // namespace plexway::windows
+}  // namespace plexway::detail::windows

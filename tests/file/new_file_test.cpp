@@ -18,7 +18,7 @@ namespace new_file_test {
 
 using io_testing::bytes_of;
 using io_testing::Folder;
-using plexway::file::NewFile;
+using plexway::detail::file::NewFile;
 namespace fs = std::filesystem;
 
 namespace {
@@ -188,7 +188,7 @@ TEST_CASE("a process that a signal ends leaves no file, whatever the signal") {
       if (child == 0) {
         NewFile::always_named = named;
         const auto end_by = [](int number) {
-          plexway::file::remove_unfinished();
+          plexway::detail::file::remove_unfinished();
           std::signal(number, SIG_DFL);
           std::raise(number);
         };

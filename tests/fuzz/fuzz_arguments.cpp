@@ -117,7 +117,7 @@ Outcome run(const std::vector<std::string>& words) {
   std::vector<const char*> argv = {"plexway"};
   for (const std::string& word : words) argv.push_back(word.c_str());
   Caught out(stdout), err(stderr);
-  const int code = plexway::cli::run(static_cast<int>(argv.size()), argv.data());
+  const int code = plexway::detail::cli::run(static_cast<int>(argv.size()), argv.data());
   return {code, out.end(), err.end()};
 }
 

@@ -24,7 +24,7 @@ template <class Real_, int K_>
 struct Case {
   using Real = Real_;
   static constexpr int K = K_;
-  using Kernel = plexway::kernel::HingeKernel<Real, K>;
+  using Kernel = plexway::detail::kernel::HingeKernel<Real, K>;
   /// With lengths about 1, heights from 0.05 and squares as input: what rounding can do at worst.
   static constexpr double close = std::is_same_v<Real, float> ? 1e-3 : 1e-11;
 };
@@ -345,7 +345,7 @@ TEMPLATE_TEST_CASE("no input gives NaN", "[kernel]", ALL_CASES) {
 
 TEST_CASE("K = 2 bends where no projection would", "[kernel]") {
   // A long thin triangle; the way round its lower edge meets it far from the crossing's foot.
-  using Kernel = plexway::kernel::HingeKernel<double, 2>;
+  using Kernel = plexway::detail::kernel::HingeKernel<double, 2>;
   Hinge hinge;
   const auto at = [](double x, double y, double z) { return Vector(Eigen::Vector3d(x, y, z)); };
   hinge.I = {at(0, 0, 0), at(10, 0, 0), at(5, 3, 0)};

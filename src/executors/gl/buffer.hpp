@@ -9,7 +9,7 @@
 
 #include "executors/gl/context.hpp"
 
-namespace plexway::gl {
+namespace plexway::detail::gl {
 
 /// A storage buffer. Its owner releases it within a Session.
 class Buffer {
@@ -117,4 +117,4 @@ class Buffer {
   std::size_t bytes_ = 0;
 };
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl

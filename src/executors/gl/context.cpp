@@ -7,7 +7,7 @@
 
 #include "executors/gl/program.hpp"
 
-namespace plexway::gl {
+namespace plexway::detail::gl {
 namespace {
 
 std::string text_of(const Functions& gl, GLenum name) {
@@ -94,7 +94,7 @@ GLuint Context::program(const std::string& shader, const std::string& defines) {
   return place->second;
 }
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl
 
 namespace plexway {
 

@@ -10,7 +10,7 @@
 
 #include "executors/gl/display.hpp"
 
-namespace plexway::gl {
+namespace plexway::detail::gl {
 
 /// What a device's shaders can do at most.
 struct Limits {
@@ -89,4 +89,4 @@ class Uniforms {
   GLuint program_;
 };
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl

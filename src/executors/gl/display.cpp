@@ -10,7 +10,7 @@
 
 #include <plexway/error.hpp>
 
-namespace plexway::gl {
+namespace plexway::detail::gl {
 namespace {
 
 bool lists(const char* extensions, std::string_view name) {
@@ -158,4 +158,4 @@ MakeCurrent::~MakeCurrent() {
     eglMakeCurrent(before_display_, before_draw_, before_read_, before_context_);
 }
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl

@@ -5,7 +5,7 @@
 
 #include "executors/gl/functions.hpp"
 
-namespace plexway::gl {
+namespace plexway::detail::gl {
 
 /// A place where EGL can make a context without a window. EGL's types are pointers: no header here.
 struct Display {
@@ -53,4 +53,4 @@ class MakeCurrent {
   unsigned before_api_;
 };
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl

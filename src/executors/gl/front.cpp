@@ -10,7 +10,7 @@
 
 #include "executors/gl/context.hpp"
 
-namespace plexway::gl {
+namespace plexway::detail::gl {
 
 namespace {
 
@@ -314,4 +314,4 @@ void Front::read_state(const Session& session) {
   control_.read(session, std::span<FrontControl>(&state_, 1));
 }
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl

@@ -10,7 +10,7 @@
 
 #include "executors/gl/buffer.hpp"
 
-namespace plexway::gl {
+namespace plexway::detail::gl {
 
 /// shaders/front_control.glsl says what these mean.
 struct FrontControl {
@@ -113,4 +113,4 @@ class Front {
 /// Dispatches enough work groups for so many invocations and makes what they write visible.
 void dispatch(const Session& session, std::size_t invocations);
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl

@@ -50,7 +50,7 @@
   F(BUFFERSTORAGE, BufferStorage)        \
   F(MAPBUFFERRANGE, MapBufferRange)
 
-namespace plexway::gl {
+namespace plexway::detail::gl {
 
 struct Functions {
 #define PLEXWAY_GL_DECLARE(upper, name) PFNGL##upper##PROC name = nullptr;
@@ -59,4 +59,4 @@ struct Functions {
 #undef PLEXWAY_GL_DECLARE
 };
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl

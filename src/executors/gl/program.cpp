@@ -6,7 +6,7 @@
 
 #include <plexway/error.hpp>
 
-namespace plexway::gl {
+namespace plexway::detail::gl {
 namespace {
 
 // Compilers name a place as FILE:LINE or FILE(LINE), FILE being a number that #line has given.
@@ -79,4 +79,4 @@ GLuint compile(const Functions& gl, const std::string& shader, const std::string
   throw Error("no shader " + shader + " was embedded");
 }
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl

@@ -5,7 +5,7 @@
 
 #include "executors/gl/functions.hpp"
 
-namespace plexway::gl {
+namespace plexway::detail::gl {
 
 /// A shader as it was embedded when this was built.
 struct ShaderText {
@@ -26,4 +26,4 @@ GLuint compile(const Functions& gl, const std::string& shader, const std::string
 GLuint compile_text(const Functions& gl, const std::string& text, const std::string& files,
                     const std::string& defines);
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl

@@ -8,9 +8,7 @@
 #include "complexes/common/number_range.hpp"
 #include "labels/progress_counter.hpp"
 
-namespace plexway::gl {
-using namespace detail;
-
+namespace plexway::detail::gl {
 void check_number(std::size_t sources) {
   if (sources > std::size_t{1} << 27)
     throw UsageError("the gl executor takes at most 2^27 sources");
@@ -112,4 +110,4 @@ void set_offsets(std::span<const PointSource> sources, const PropagateOptions& o
       distance[s.vertex] = std::min(distance[s.vertex], static_cast<float>(s.offset));
 }
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl

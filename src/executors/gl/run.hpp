@@ -9,7 +9,7 @@
 #include "executors/gl/seeds.hpp"
 #include "executors/gl/workspace.hpp"
 
-namespace plexway::gl {
+namespace plexway::detail::gl {
 
 /// Throws UsageError for more sources than the device tells apart.
 void check_number(std::size_t sources);
@@ -58,4 +58,4 @@ void set_offsets(std::span<const PointSource> sources, const PropagateOptions& o
 std::size_t fields_at_once(const Session& session, const GL& executor, std::size_t sources,
                            std::size_t simplices, std::size_t label_bytes, std::size_t vertices);
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl

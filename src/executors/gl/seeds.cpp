@@ -11,8 +11,7 @@
 #include "labels/surface/triangle_propagation.hpp"
 #include "labels/wavefront.hpp"
 
-namespace plexway::gl {
-using namespace detail;
+namespace plexway::detail::gl {
 namespace {
 
 using SolidLabel = SimplexLabel<float, 3>;
@@ -152,4 +151,4 @@ void SolidSeeds::add_pinches(const TetMesh<float>& mesh, const PropagateOptions&
   });
 }
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl

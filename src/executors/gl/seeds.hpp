@@ -13,9 +13,7 @@
 #include "executors/gl/functions.hpp"
 #include "labels/workspace_state.hpp"
 
-namespace plexway::gl {
-using namespace detail;
-
+namespace plexway::detail::gl {
 /// What a source itself offers to a vertex (shaders/claim.comp).
 struct VertexOffer {
   GLuint vertex, distance, source, spare;
@@ -75,4 +73,4 @@ struct SolidSeeds : SeedsOf<SolidCell> {
                    WorkspaceState<float>& workspace);
 };
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl

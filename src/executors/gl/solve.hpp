@@ -16,9 +16,7 @@
 /// simplices that have labels, `upload(session, domain, buffers)`, `run(seeds, fields)`, until no
 /// label waits in so many fields (false if the budget is spent), and `read_out(seeds, distance,
 /// label)`, fields times vertices in the caller's order, where `label` may be empty.
-namespace plexway::gl {
-using namespace detail;
-
+namespace plexway::detail::gl {
 /// Several fields over one domain, in one launch.
 template <class D, class Buffers>
 class RunOn {
@@ -105,7 +103,7 @@ bool solve_each(const GL& executor, const typename Run::Domain& domain,
   return complete;
 }
 
-}  // namespace plexway::gl
+}  // namespace plexway::detail::gl
 
 /// solve_points and each_point of GL for a domain, and what run.hpp compiles of them.
 #define PLEXWAY_COMPILE_GL(Run)                                                            \

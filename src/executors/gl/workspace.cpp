@@ -12,39 +12,39 @@ GLWorkspace::Implementation::Implementation()
 GLWorkspace::Implementation::~Implementation() {
   if (!context) return;
   try {
-    const gl::Session session(*context);
+    const detail::gl::Session session(*context);
     release(session);
   } catch (const Error&) {  // the device is gone, and what was on it
   }
 }
 
-void GLWorkspace::Implementation::use(const std::shared_ptr<gl::Context>& wanted) {
+void GLWorkspace::Implementation::use(const std::shared_ptr<detail::gl::Context>& wanted) {
   if (context == wanted) return;
   if (context) {
-    const gl::Session session(*context);
+    const detail::gl::Session session(*context);
     release(session);
   }
   context = wanted;
 }
 
-void GLWorkspace::Implementation::release(const gl::Session& session) {
+void GLWorkspace::Implementation::release(const detail::gl::Session& session) {
   front.release(session);
   release_domain(session);
-  for (gl::Buffer* b : {&vertex_best, &vertex_source, &distances, &sources, &small})
+  for (detail::gl::Buffer* b : {&vertex_best, &vertex_source, &distances, &sources, &small})
     b->release(session);
 }
 
-void GLWorkspace::Implementation::release_domain(const gl::Session& session) {
+void GLWorkspace::Implementation::release_domain(const detail::gl::Session& session) {
   if (domain)
-    for (gl::Buffer* b : domain->all()) b->release(session);
+    for (detail::gl::Buffer* b : domain->all()) b->release(session);
   domain.reset();
 }
 
 std::size_t GLWorkspace::Implementation::bytes() {
   std::size_t sum = front.bytes();
   if (domain)
-    for (const gl::Buffer* b : domain->all()) sum += b->bytes();
-  for (const gl::Buffer* b : {&vertex_best, &vertex_source, &distances, &sources, &small})
+    for (const detail::gl::Buffer* b : domain->all()) sum += b->bytes();
+  for (const detail::gl::Buffer* b : {&vertex_best, &vertex_source, &distances, &sources, &small})
     sum += b->bytes();
   return sum;
 }

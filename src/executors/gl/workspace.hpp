@@ -13,7 +13,7 @@ namespace plexway {
 struct GLWorkspace::Implementation {
   struct DomainBuffers {
     virtual ~DomainBuffers() = default;
-    [[nodiscard]] virtual std::vector<gl::Buffer*> all() = 0;
+    [[nodiscard]] virtual std::vector<detail::gl::Buffer*> all() = 0;
   };
 
   Implementation();
@@ -22,14 +22,14 @@ struct GLWorkspace::Implementation {
   Implementation& operator=(const Implementation&) = delete;
 
   /// Everything goes to another device.
-  void use(const std::shared_ptr<gl::Context>& wanted);
-  void release(const gl::Session& session);
-  void release_domain(const gl::Session& session);
+  void use(const std::shared_ptr<detail::gl::Context>& wanted);
+  void release(const detail::gl::Session& session);
+  void release_domain(const detail::gl::Session& session);
   [[nodiscard]] std::size_t bytes();
 
   /// The buffers of a domain, made by `make` unless those that are there have this `identity`.
   template <class Buffers, class Make>
-  Buffers& domain_buffers(const gl::Session& session, std::uint64_t identity, Make make) {
+  Buffers& domain_buffers(const detail::gl::Session& session, std::uint64_t identity, Make make) {
     // Domains of two types have no identity in common.
     if (domain && domain_identity == identity) return static_cast<Buffers&>(*domain);
     release_domain(session);
@@ -42,11 +42,11 @@ struct GLWorkspace::Implementation {
     return buffers;
   }
 
-  std::shared_ptr<gl::Context> context;
-  gl::Front front;
+  std::shared_ptr<detail::gl::Context> context;
+  detail::gl::Front front;
   std::unique_ptr<DomainBuffers> domain;
   std::uint64_t domain_identity = 0;
-  gl::Buffer vertex_best, vertex_source, distances, sources, small;
+  detail::gl::Buffer vertex_best, vertex_source, distances, sources, small;
   detail::WorkspaceState<float> host;  // for seeds
   std::size_t rounds = 0;
 };

@@ -8,9 +8,7 @@
 #include "labels/read_out_edges.hpp"
 #include "labels/straight_lines.hpp"
 
-namespace plexway::surface {
-using namespace detail;
-
+namespace plexway::detail::surface {
 /// What `repair` did.
 struct Repaired {
   std::size_t raised = 0;   ///< vertices below the straight line, by more than 1e-3
@@ -62,4 +60,4 @@ Repaired repair(const TriangleMesh<Real>& mesh, std::span<const PointSource> sou
   return repaired;
 }
 
-}  // namespace plexway::surface
+}  // namespace plexway::detail::surface

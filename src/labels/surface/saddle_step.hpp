@@ -11,7 +11,7 @@
 /// One update under Visibility::saddles, hinge by hinge: the text of saddle_step.inl, which shaders
 /// compile as well. saddle_step_lanes.hpp does the common case of both hinges of a triangle at
 /// once; this is the rule it must agree with.
-namespace plexway::kernel {
+namespace plexway::detail::kernel {
 
 #include "kernel/text_begin.inl"
 
@@ -29,7 +29,7 @@ struct SaddleKernel : HingeKernel<Real_, 1> {
 
 #include "kernel/text_end.inl"
 
-}  // namespace plexway::kernel
+}  // namespace plexway::detail::kernel
 
 namespace plexway::detail {
 

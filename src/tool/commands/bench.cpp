@@ -16,8 +16,7 @@
 #include "tool/options/solve_options.hpp"
 #include "tool/report/console.hpp"
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 struct BenchCommand : InputCommand {
@@ -205,4 +204,4 @@ void add_bench_command(CLI::App& tool, Action& action) {
   app.callback([command, &action] { action = [command] { run_bench(*command); }; });
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -8,8 +8,7 @@
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 struct ConvertCommand : InputCommand {
@@ -66,4 +65,4 @@ void add_convert_command(CLI::App& tool, Action& action) {
   app.callback([command, &action] { action = [command] { run_convert(*command); }; });
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

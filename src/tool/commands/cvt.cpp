@@ -16,8 +16,7 @@
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 struct CvtCommand : SamplingCommand {
@@ -181,4 +180,4 @@ void add_cvt_command(CLI::App& tool, Action& action) {
   app.callback([command, &action] { action = [command] { run_cvt(*command); }; });
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

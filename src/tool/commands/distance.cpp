@@ -28,8 +28,7 @@
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 // What came out, as far as a report tells it.
@@ -357,4 +356,4 @@ void add_distance_command(CLI::App& tool, Action& action, const Among* among) {
   });
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -9,9 +9,7 @@
 #include "tool/options/picture_options.hpp"
 #include "tool/options/solve_options.hpp"
 
-namespace plexway::cli {
-using namespace detail;
-
+namespace plexway::detail::cli {
 /// 'plexway distance', as typed.
 struct DistanceCommand : InputCommand {
   std::vector<std::string> sources;
@@ -34,4 +32,4 @@ struct DistanceCommand : InputCommand {
 /// With --in-parts: a surface that no process has as a whole.
 void run_distance_in_parts(DistanceCommand command);
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -30,8 +30,7 @@
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 /// The table's word on all that was requested.
@@ -369,4 +368,4 @@ void run_distance_in_parts(DistanceCommand command) {
     solve_in_parts<double>(command, options, arguments);
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -13,8 +13,7 @@
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 struct FarthestCommand : SamplingCommand {
@@ -95,4 +94,4 @@ void add_farthest_command(CLI::App& tool, Action& action) {
   app.callback([command, &action] { action = [command] { run_farthest(*command); }; });
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -11,8 +11,7 @@
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 struct InfoCommand : InputCommand {
@@ -68,4 +67,4 @@ void add_info_command(CLI::App& tool, Action& action) {
   app.callback([command, &action] { action = [command] { run_info(*command); }; });
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

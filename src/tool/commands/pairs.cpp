@@ -31,9 +31,7 @@
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
-using namespace detail;
-
+namespace plexway::detail::cli {
 namespace {
 
 /// What `plexway pairs --sources` takes, as typed.
@@ -429,4 +427,4 @@ void add_pairs_command(CLI::App& tool, Action& action, const Among* among) {
   });
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -24,8 +24,7 @@
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 struct PathCommand : InputCommand {
@@ -352,4 +351,4 @@ void add_path_command(CLI::App& tool, Action& action) {
   app.callback([command, &action] { action = [command] { run_path(*command); }; });
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -14,8 +14,7 @@
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 struct PoissonCommand : SamplingCommand {
@@ -127,4 +126,4 @@ void add_poisson_command(CLI::App& tool, Action& action) {
   app.callback([command, &action] { action = [command] { run_poisson(*command); }; });
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -16,8 +16,7 @@
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 struct PrepareCommand : InputCommand {
@@ -90,4 +89,4 @@ void add_prepare_command(CLI::App& tool, Action& action) {
   app.callback([command, &action] { action = [command] { run_prepare(*command); }; });
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

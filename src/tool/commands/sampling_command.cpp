@@ -11,9 +11,7 @@
 #include "shape/warnings/survey.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
-using namespace detail;
-
+namespace plexway::detail::cli {
 namespace {
 
 /// Parts of a domain, each what simplices (of a cloud: neighbours) hold together.
@@ -101,4 +99,4 @@ void finish(Summary& summary, const SamplingCommand& command, const PropagateSta
   notes.say(command.quiet);
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

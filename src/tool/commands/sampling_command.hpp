@@ -15,9 +15,7 @@
 #include "tool/options/solve_options.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
-using namespace detail;
-
+namespace plexway::detail::cli {
 /// What the commands that choose points have in common, as typed.
 struct SamplingCommand : InputCommand {
   std::string out;
@@ -111,4 +109,4 @@ void add_parts_without(Notes& notes, const Domain& domain, std::span<const Point
 void finish(Summary& summary, const SamplingCommand& command, const PropagateStatistics& work,
             const Phases& phases, const Notes& notes);
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -14,8 +14,7 @@
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 struct TetrahedralizeCommand : InputCommand {
@@ -78,4 +77,4 @@ void add_tetrahedralize_command(CLI::App& tool, Action& action) {
   app.callback([command, &action] { action = [command] { run_tetrahedralize(*command); }; });
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

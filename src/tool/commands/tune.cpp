@@ -10,8 +10,7 @@
 #include "tool/report/console.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 // The request, and what is typed otherwise than it is meant.
@@ -131,4 +130,4 @@ void add_tune_command(CLI::App& tool, Action& action) {
   app.callback([command, &action] { action = [command] { run_tune(*command); }; });
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

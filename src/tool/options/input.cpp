@@ -6,9 +6,7 @@
 #include "shape/arguments/arguments.hpp"
 #include "tool/options/input.hpp"
 
-namespace plexway::cli {
-using namespace detail;
-
+namespace plexway::detail::cli {
 void add_cloud_options(CLI::App& command, CloudPreparation& options) {
   const OptionGroup add(command, "How to make a complex of points");
   add("--k", options.k, "K",
@@ -189,4 +187,4 @@ Domain load_domain(const InputCommand& command, ProgressLine& progress) {
   return Domain::read(files, *command.weld, options);
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -14,7 +14,7 @@
 
 #include "tool/report/console.hpp"
 
-namespace plexway::cli {
+namespace plexway::detail::cli {
 
 /// Adds the options to a command, in a group of their own.
 void add_cloud_options(CLI::App& command, CloudPreparation& options);
@@ -120,4 +120,4 @@ void add_merge_option(CLI::App& app, InputCommand& command);
 /// Reads INPUT as AnyShape::read does. Throws UsageError, too, for a kind that does not exist.
 Domain load_domain(const InputCommand& command, ProgressLine& progress);
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

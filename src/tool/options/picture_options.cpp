@@ -18,8 +18,7 @@
 #include <plexway/render/picture.hpp>
 #endif
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 constexpr std::array<std::string_view, 2> picture_extensions = {".png", ".svg"};
@@ -291,4 +290,4 @@ std::vector<double> isoline_values(const IsolineOptions& options,
   return values;
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

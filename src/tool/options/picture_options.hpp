@@ -12,7 +12,7 @@
 #include "tool/options/input.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
+namespace plexway::detail::cli {
 
 /// --picture and --html, and what goes with them, as typed.
 struct PictureArguments {
@@ -60,4 +60,4 @@ void check_isolines(const IsolineOptions& options, const Domain& domain);
 /// Throws UsageError for more than 10000, and for none where the file cannot be empty.
 std::vector<double> isoline_values(const IsolineOptions& options, std::span<const double> distance);
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

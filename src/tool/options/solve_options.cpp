@@ -65,8 +65,7 @@ AnyExecutor fastest_executor(const AnyDomain& domain, std::size_t sources,
 
 }  // namespace plexway::detail
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 bool is_built(const std::string& name) {
@@ -268,4 +267,4 @@ void check_triangulation(Triangulation wanted, const Domain& domain) {
     require("--triangulation", support(Purpose::triangulations, domain.kind()));
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -15,9 +15,7 @@
 #include "tool/options/input.hpp"
 #include "tool/report/summary.hpp"
 
-namespace plexway::cli {
-using namespace detail;
-
+namespace plexway::detail::cli {
 /// --executor, --threads and --device, as typed.
 struct ExecutorArgument {
   std::string name = "serial";
@@ -95,4 +93,4 @@ Triangulation triangulation_of(const TriangulationArgument& argument);
 /// Throws UsageError where `delaunay` or `refined` is asked of what is no surface.
 void check_triangulation(Triangulation wanted, const Domain& domain);
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -10,8 +10,7 @@
 #include "shape/modules/module.hpp"
 #include "tool/report/console.hpp"
 
-namespace plexway::cli {
-using namespace detail;
+namespace plexway::detail::cli {
 namespace {
 
 [[noreturn]] void refused(int code) {
@@ -125,4 +124,4 @@ std::function<bool(const Progress&)> ProgressLine::callback() {
   };
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -9,7 +9,7 @@
 
 #include "file/standard_output.hpp"
 
-namespace plexway::cli {
+namespace plexway::detail::cli {
 
 using file::OutputClosed;
 
@@ -79,4 +79,4 @@ class ProgressLine {
   Clock::time_point drawn_;
 };
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -10,7 +10,7 @@
 #include <plexway/error.hpp>
 #include <plexway/version.hpp>
 
-namespace plexway::cli {
+namespace plexway::detail::cli {
 namespace {
 
 std::vector<const CLI::App*> commands_of(const CLI::App& tool) {
@@ -299,4 +299,4 @@ std::string short_help(const CLI::App& app) {
          "\n";
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

@@ -5,9 +5,7 @@
 
 #include "tool/report/console.hpp"
 
-namespace plexway::cli {
-using namespace detail;
-
+namespace plexway::detail::cli {
 void Notes::say(bool quiet) const {
   if (quiet) return;
   for (const std::string& text : texts_) say_note(text);
@@ -92,4 +90,4 @@ void DistanceReport::add_to(Summary& summary, bool verbose) const {
                    std::to_string((most + 500'000) / 1'000'000) + " MB in one");
 }
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

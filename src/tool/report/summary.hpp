@@ -16,9 +16,7 @@
 #include "shape/stopwatch.hpp"
 #include "tool/options/input.hpp"
 
-namespace plexway::cli {
-using namespace detail;
-
+namespace plexway::detail::cli {
 using io::check_output_name;
 using io::check_output_place;
 using io::check_outputs_differ;
@@ -93,4 +91,4 @@ struct DistanceReport {
   void add_to(Summary& summary, bool verbose) const;
 };
 
-}  // namespace plexway::cli
+}  // namespace plexway::detail::cli

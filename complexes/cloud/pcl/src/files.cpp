@@ -216,7 +216,7 @@ int write_with_pcl(const std::string& file, bool ply, const PCLPointCloud2& clou
 }
 
 void write_cloud(const fs::path& file, const PCLPointCloud2& cloud, PcdForm form) {
-  file::NewFile out(file);
+  detail::file::NewFile out(file);
   int result = -1;
   std::string cause = "PCL failed to";
   try {

@@ -19,7 +19,7 @@
 namespace {
 
 using namespace plexway::openvdb;
-namespace isolated = plexway::isolated;
+namespace isolated = plexway::detail::isolated;
 
 class Writer {
  public:

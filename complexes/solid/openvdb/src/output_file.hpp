@@ -34,7 +34,7 @@ class OutputFile : public std::streambuf {
  private:
   bool flush();
 
-  file::NewFile file_;
+  detail::file::NewFile file_;
   int failure_ = 0;  ///< the first one's errno
   std::vector<char> buffer_;
 };

@@ -29,7 +29,7 @@ std::string printable(std::string text) {
   return text;
 }
 
-using isolated::Descriptor;
+using detail::isolated::Descriptor;
 
 /// False once the helper has gone silent.
 class Reader {
@@ -178,7 +178,7 @@ void require_file(const std::filesystem::path& file) {
 
 // Why the helper fell silent: the file, or something else.
 [[noreturn]] void throw_silence(const std::string& file, bool ready, std::uintmax_t file_bytes,
-                                const isolated::HelperEnd& end) {
+                                const detail::isolated::HelperEnd& end) {
   if (ready && end.crashed())
     throw InputError(file + ": OpenVDB crashes on it: the file is damaged");
   if (ready && end.signal == SIGXCPU)
@@ -195,9 +195,9 @@ LevelSet read_level_set(const std::filesystem::path& file, std::string_view grid
   std::error_code unknown;
   std::uintmax_t size = std::filesystem::file_size(file, unknown);
   if (unknown) size = 0;
-  isolated::Helper helper(helper_name, "OpenVDB", reinterpret_cast<const void*>(&read_level_set),
-                          false);
-  isolated::BytesOut request;
+  detail::isolated::Helper helper(helper_name, "OpenVDB",
+                                  reinterpret_cast<const void*>(&read_level_set), false);
+  detail::isolated::BytesOut request;
   request.put_row(file.string());
   request.put_row(grid);
   helper.tell(request.bytes());

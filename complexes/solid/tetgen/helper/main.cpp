@@ -16,7 +16,7 @@
 namespace {
 
 using namespace plexway::tetgen;
-namespace isolated = plexway::isolated;
+namespace isolated = plexway::detail::isolated;
 
 bool understand(isolated::BytesIn in, std::string& switches, PiecewiseLinearComplex& complex) {
   std::uint64_t facets = 0;

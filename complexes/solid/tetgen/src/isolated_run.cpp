@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t most_said = std::size_t{1} << 18;
 
 std::string request_of(const PiecewiseLinearComplex& complex, const std::string& switches) {
-  isolated::BytesOut out;
+  detail::isolated::BytesOut out;
   out.put_row(switches);
   out.put_row(complex.positions);
   out.put_row(complex.holes);
@@ -73,9 +73,9 @@ class Clock {
 
 // Reads both pipes to their ends, whichever has something, so that neither can fill up and block;
 // or until patience is over, and then says how.
-Ending listen_to(isolated::Helper& helper, const Patience& patience, std::string& said,
+Ending listen_to(detail::isolated::Helper& helper, const Patience& patience, std::string& said,
                  std::string& bytes) {
-  isolated::Descriptor &speech = helper.speech(), &answer = helper.answer();
+  detail::isolated::Descriptor &speech = helper.speech(), &answer = helper.answer();
   Clock clock(patience);
   std::vector<char> buffer(std::size_t{1} << 16);
   while (speech.number >= 0 || answer.number >= 0) {
@@ -107,22 +107,22 @@ Ending listen_to(isolated::Helper& helper, const Patience& patience, std::string
 
 Run run_isolated(const PiecewiseLinearComplex& complex, const std::string& switches,
                  const Patience& patience) {
-  isolated::Helper helper(helper_name, "TetGen", reinterpret_cast<const void*>(&run_isolated),
-                          true);
+  detail::isolated::Helper helper(helper_name, "TetGen",
+                                  reinterpret_cast<const void*>(&run_isolated), true);
   helper.tell(request_of(complex, switches));
   Run run;
   std::string bytes;
   run.ending = listen_to(helper, patience, run.said, bytes);
   if (run.ending != Ending::done) return run;
   // Only a whole answer counts; a helper that was killed gives none.
-  isolated::BytesIn in(bytes);
+  detail::isolated::BytesIn in(bytes);
   std::int32_t ending = 0;
   if (in.get(ending) && in.get_row(run.points) && in.get_row(run.tets) &&
       in.get_row(run.attributes)) {
     run.ending = static_cast<Ending>(ending);
     return run;
   }
-  const isolated::HelperEnd end = helper.end();
+  const detail::isolated::HelperEnd end = helper.end();
   run.ending = end.crashed() ? Ending::crashed : Ending::killed;
   run.how = end.text();
   return run;

@@ -213,7 +213,7 @@ std::string empty_file() {
   return bytes;
 }
 
-void write(file::NewFile& out, const Matrix& matrix, const OpenMP& threads) {
+void write(detail::file::NewFile& out, const Matrix& matrix, const OpenMP& threads) {
   const std::string empty = empty_file();
   if (const int failed = out.write(empty.data(), empty.size()); failed != 0) throw Refused(failed);
   const Handle access = file_access();
@@ -254,7 +254,7 @@ void write_matrix(const std::filesystem::path& file, const Matrix& matrix, const
   if (matrix.number_bytes != 2 && matrix.number_bytes != 4 && matrix.number_bytes != 8)
     throw UsageError("the numbers of a matrix have 2, 4 or 8 bytes, not " +
                      std::to_string(matrix.number_bytes));
-  file::NewFile out(file);
+  detail::file::NewFile out(file);
   if (!out.seekable()) out.refuse("HDF5 files go to no pipe");
   // Nor does it close what is open when the process ends.
   [[maybe_unused]] static const herr_t no_end = H5dont_atexit();

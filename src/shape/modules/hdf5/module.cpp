@@ -21,4 +21,4 @@ constexpr plexway::detail::Hdf5Functions functions = {write_matrix};
 }  // namespace
 
 extern "C" const plexway::detail::Hdf5Functions* plexway_hdf5_functions() { return &functions; }
-extern "C" void plexway_remove_unfinished() { plexway::file::remove_unfinished(); }
+extern "C" void plexway_remove_unfinished() { plexway::detail::file::remove_unfinished(); }

@@ -81,4 +81,4 @@ constexpr OpenvdbFunctions functions = {solid_of_file, surface_of_file, solid_in
 }  // namespace
 
 extern "C" const OpenvdbFunctions* plexway_openvdb_functions() { return &functions; }
-extern "C" void plexway_remove_unfinished() { plexway::file::remove_unfinished(); }
+extern "C" void plexway_remove_unfinished() { plexway::detail::file::remove_unfinished(); }

@@ -37,4 +37,4 @@ constexpr PclFunctions functions = {read_points, write_field, plexway::pcl::voxe
 }  // namespace
 
 extern "C" const PclFunctions* plexway_pcl_functions() { return &functions; }
-extern "C" void plexway_remove_unfinished() { plexway::file::remove_unfinished(); }
+extern "C" void plexway_remove_unfinished() { plexway::detail::file::remove_unfinished(); }
