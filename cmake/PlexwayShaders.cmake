@@ -6,7 +6,8 @@ function(plexway_embed_shaders out space header)
   file(GLOB shaders CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/shaders" ${patterns})
   file(GLOB texts CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/shaders/*"
     "${PROJECT_SOURCE_DIR}/src/kernel/*.inl" "${PROJECT_SOURCE_DIR}/src/labels/*/*.inl")
-  set(source "${CMAKE_CURRENT_BINARY_DIR}/${space}_shader_texts.cpp")
+  string(MAKE_C_IDENTIFIER "${space}" file)
+  set(source "${CMAKE_CURRENT_BINARY_DIR}/${file}_shader_texts.cpp")
   set(script "${PROJECT_SOURCE_DIR}/cmake/ShaderText.cmake")
   list(JOIN shaders "," names)
   add_custom_command(OUTPUT "${source}"

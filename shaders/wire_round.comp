@@ -1,7 +1,7 @@
 #version 430
 // The last pass of a round along edges: every label that this round settled is offered to all
 // neighbours of its vertex, one invocation a vertex. The hinge is a vertex, K = 0, where every path
-// bends: what is left of the step is sigma + length (labels/wireframe/wire_spread.hpp).
+// bends: what is left of the step is sigma + length (labels/wireframe/wire_propagation.hpp).
 
 #ifndef PLEXWAY_GROUP
 #define PLEXWAY_GROUP 64

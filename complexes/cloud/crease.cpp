@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "complexes/common/median.hpp"
+#include "complexes/common/arrays.hpp"
 
 namespace plexway::detail {
 namespace {

@@ -9,14 +9,11 @@
 #include <plexway/common/distinct_points.hpp>
 #include <plexway/error.hpp>
 
-#include "complexes/cloud/cloud_bridges.hpp"
-#include "complexes/cloud/sheet_lengths.hpp"
-#include "complexes/cloud/sheet_wedges.hpp"
+#include "complexes/cloud/sheet.hpp"
 #include "complexes/cloud/umbrella.hpp"
-#include "complexes/common/fill_rows.hpp"
+#include "complexes/common/arrays.hpp"
 #include "complexes/common/nearby.hpp"
 #include "complexes/surface/gluing.hpp"
-#include "complexes/surface/saddle_vertices.hpp"
 
 namespace plexway {
 using namespace detail;

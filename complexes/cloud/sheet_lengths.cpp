@@ -1,4 +1,4 @@
-#include "complexes/cloud/sheet_lengths.hpp"
+#include "complexes/cloud/sheet.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "complexes/cloud/crease.hpp"
-#include "complexes/common/median.hpp"
+#include "complexes/common/arrays.hpp"
 
 namespace plexway::detail {
 namespace {

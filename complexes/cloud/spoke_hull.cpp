@@ -1,4 +1,4 @@
-#include "complexes/cloud/spoke_hull.hpp"
+#include "complexes/cloud/umbrella.hpp"
 
 #include <algorithm>
 #include <array>

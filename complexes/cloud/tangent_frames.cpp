@@ -6,7 +6,7 @@
 
 #include <plexway/common/blocks.hpp>
 
-#include "complexes/common/median.hpp"
+#include "complexes/common/arrays.hpp"
 
 namespace plexway::detail {
 namespace {

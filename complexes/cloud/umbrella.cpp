@@ -10,8 +10,7 @@
 #include <plexway/common/blocks.hpp>
 
 #include "complexes/cloud/crease.hpp"
-#include "complexes/cloud/spoke_hull.hpp"
-#include "complexes/common/median.hpp"
+#include "complexes/common/arrays.hpp"
 
 namespace plexway::detail {
 namespace {

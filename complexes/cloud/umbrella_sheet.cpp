@@ -8,7 +8,7 @@
 
 #include <plexway/common/blocks.hpp>
 
-#include "complexes/cloud/sheet_wedges.hpp"
+#include "complexes/cloud/sheet.hpp"
 
 namespace plexway::detail {
 namespace {

@@ -10,6 +10,9 @@
 
 namespace plexway::detail {
 
+/// The distance of what cannot be reached.
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// What a Real can hold of a domain whose lengths are stored in units of their mean: asked where
 /// the records are made, and where distances are. Each throws PrecisionError with the place. Ratios
 /// within these ranges are harmless however large: arithmetic is relative to what is near.

@@ -12,7 +12,7 @@
 #include <plexway/error.hpp>
 #include <plexway/simplicial/detail/simplex_record.hpp>
 
-#include "complexes/common/fill_rows.hpp"
+#include "complexes/common/arrays.hpp"
 
 namespace plexway::detail {
 

@@ -8,8 +8,8 @@
 
 #include <plexway/error.hpp>
 
+#include "complexes/common/arrays.hpp"
 #include "complexes/common/disjoint_sets.hpp"
-#include "complexes/common/vertices_outside.hpp"
 
 namespace plexway::detail {
 namespace {

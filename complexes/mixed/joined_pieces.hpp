@@ -11,7 +11,7 @@
 #include <plexway/solid/tet_mesh.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
-#include "complexes/common/point3.hpp"
+#include "complexes/common/geometry.hpp"
 #include "complexes/solid/shared_faces.hpp"
 
 namespace plexway::detail {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <plexway/common/detail/on_demand.hpp>
+#include <plexway/common/detail/storage.hpp>
 #include <plexway/common/ids.hpp>
 
 #include "complexes/common/box_tree.hpp"

@@ -13,8 +13,8 @@
 #include <plexway/simplicial/detail/simplex_record.hpp>
 
 #include "complexes/common/disjoint_sets.hpp"
-#include "complexes/simplicial/elimination.hpp"
 #include "complexes/simplicial/flat_domain.hpp"
+#include "complexes/simplicial/simplex_shape.hpp"
 
 namespace plexway::detail {
 

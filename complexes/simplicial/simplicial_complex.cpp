@@ -10,11 +10,10 @@
 #include <plexway/solid/tet_mesh.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
+#include "complexes/common/arrays.hpp"
 #include "complexes/common/disjoint_sets.hpp"
-#include "complexes/common/fill_rows.hpp"
 #include "complexes/common/number_range.hpp"
 #include "complexes/common/simplex_gluing.hpp"
-#include "complexes/simplicial/laid_out.hpp"
 #include "complexes/simplicial/simplex_flat.hpp"
 #include "complexes/simplicial/simplex_shape.hpp"
 

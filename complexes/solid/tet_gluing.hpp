@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <plexway/common/blocks.hpp>
-#include <plexway/common/detail/unfilled.hpp>
+#include <plexway/common/detail/storage.hpp>
 #include <plexway/common/ids.hpp>
 
 namespace plexway::detail {

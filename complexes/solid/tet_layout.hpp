@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include <plexway/common/detail/unfilled.hpp>
+#include <plexway/common/detail/storage.hpp>
 #include <plexway/common/ids.hpp>
 #include <plexway/solid/tet_mesh.hpp>
 

@@ -3,7 +3,7 @@
 #include <plexway/common/blocks.hpp>
 
 #include "complexes/cloud/neighbourhood.hpp"
-#include "complexes/common/local_frame.hpp"
+#include "complexes/common/geometry.hpp"
 
 namespace plexway {
 using namespace detail;

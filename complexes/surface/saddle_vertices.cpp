@@ -1,4 +1,4 @@
-#include "complexes/surface/saddle_vertices.hpp"
+#include "complexes/surface/gluing.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,9 +10,8 @@
 #include <plexway/error.hpp>
 
 #include "complexes/cloud/neighbourhood.hpp"
-#include "complexes/common/local_frame.hpp"
-#include "complexes/common/median.hpp"
-#include "complexes/common/point3.hpp"
+#include "complexes/common/arrays.hpp"
+#include "complexes/common/geometry.hpp"
 
 namespace plexway {
 using namespace detail;

@@ -10,16 +10,14 @@
 
 #include <plexway/error.hpp>
 
+#include "complexes/common/arrays.hpp"
 #include "complexes/common/building_blocks.hpp"
-#include "complexes/common/fill_rows.hpp"
 #include "complexes/common/number_range.hpp"
 #include "complexes/common/simplex_gluing.hpp"
 #include "complexes/common/simplex_order.hpp"
 #include "complexes/surface/face_layout.hpp"
 #include "complexes/surface/gluing.hpp"
-#include "complexes/surface/saddle_vertices.hpp"
 #include "complexes/surface/shape_blocks.hpp"
-#include "complexes/surface/vertex_fans.hpp"
 
 namespace plexway {
 using namespace detail;

@@ -14,9 +14,9 @@
 #include <plexway/io/labels.hpp>
 #include <plexway/shape/open_simplices.hpp>
 
+#include <plexway/metric/edge_lengths.hpp>
 #include "arrays.hpp"
 #include "domain.hpp"
-#include "metric/triangle_times.hpp"
 
 namespace plexway::python {
 namespace {

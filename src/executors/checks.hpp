@@ -10,6 +10,8 @@
 #include <plexway/error.hpp>
 #include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>
+#include <plexway/source/source_list.hpp>
+#include <plexway/support.hpp>
 
 namespace plexway::detail {
 
@@ -96,5 +98,20 @@ template <SimplexDomainType D>
 void check(std::span<const PointSource> sources, const PropagateOptions& options, const D& domain) {
   check(sources, options, source_domain(domain));
 }
+
+/// The cell of these options.
+[[nodiscard]] Combination with(Combination what, MetricKind metric,
+                               const PropagateOptions& options);
+
+/// Do a domain's metric, the options and all sources go together with an executor and a domain?
+[[nodiscard]] Support support_of(Combination what, MetricKind metric, const SourceList& sources,
+                                 const PropagateOptions& options);
+
+/// Throws UsageError where they do not.
+void require_support(const Combination& what, MetricKind metric, const SourceList& sources,
+                     const PropagateOptions& options);
+
+/// Throws UsageError unless there is room for that many fields.
+void check_rows(std::size_t room, std::size_t sources, std::size_t vertices);
 
 }  // namespace plexway::detail

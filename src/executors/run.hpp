@@ -9,9 +9,9 @@
 
 #include <plexway/solve.hpp>
 
+#include "executors/checks.hpp"
 #include "executors/same_work.hpp"
 #include "executors/source_parts.hpp"
-#include "executors/supported.hpp"
 #include "executors/threads/share_out.hpp"
 #include "labels/workspace_state.hpp"
 

@@ -12,7 +12,7 @@
 
 #include <plexway/error.hpp>
 
-#include "complexes/common/kept_parts.hpp"
+#include "complexes/common/kept_archive.hpp"
 #include "executors/threads/rank_mail.hpp"
 
 namespace plexway::detail {

@@ -10,7 +10,7 @@
 #include <plexway/solve/options.hpp>
 #include <plexway/source/source_list.hpp>
 
-#include "labels/piece_memory.hpp"
+#include "labels/label_memory.hpp"
 
 namespace plexway::detail {
 

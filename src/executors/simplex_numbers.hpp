@@ -9,7 +9,7 @@
 #include <plexway/source/point_source.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
-#include "complexes/common/vertices_outside.hpp"
+#include "complexes/common/arrays.hpp"
 
 namespace plexway::detail {
 

@@ -4,7 +4,6 @@
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_simplices.hpp"
-#include "executors/supported.hpp"
 #include "executors/threads/share_strings.hpp"
 #include "strings/solid_strings.hpp"
 

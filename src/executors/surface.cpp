@@ -1,12 +1,11 @@
 // The loops: MergedWindows::spread (windows/merged_windows.cpp), ExactWindows::spread
 // (windows/exact_windows.cpp), and for `fast` TriangleSpread::share
-// (labels/surface/triangle_spread.hpp).
+// (labels/surface/triangle_propagation.hpp).
 
 #include "executors/checks.hpp"
-#include "executors/curve_sources.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_surface.hpp"
-#include "executors/supported.hpp"
+#include "executors/source_parts.hpp"
 #include "executors/threads/piece_scheduler.hpp"
 #include "executors/threads/scheduler.hpp"
 #include "executors/threads/window_scheduler.hpp"

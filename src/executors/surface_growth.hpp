@@ -22,6 +22,9 @@
 
 namespace plexway::detail {
 
+/// A field that goes on from what is there. What is known stays, and each new source is propagated
+/// only where it is nearer than those before. Numbers and unit inside. Cost of a source: what it
+/// reaches; nothing is read out. Of solids: solid_growth.hpp.
 template <class Complex>
 class Growth;
 

@@ -1,4 +1,4 @@
-// The loop: labels/wireframe/wire_spread.hpp.
+// The loop: labels/wireframe/wire_propagation.hpp.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,6 @@
 #include "labels/front.hpp"
 #include "labels/pieces/wire_piece.hpp"
 #include "labels/wireframe/wire_propagation.hpp"
-#include "labels/wireframe/wire_spread.hpp"
 
 namespace plexway {
 using namespace detail;

@@ -1,9 +1,9 @@
-#include "fields/surface_read_out.hpp"
+#include "fields/surface_labels.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "paths/infinity.hpp"
+#include "complexes/common/number_range.hpp"
 
 namespace plexway::detail {
 namespace {

@@ -14,8 +14,6 @@
 
 #include <plexway/error.hpp>
 
-#include "file/standard_output.hpp"
-
 namespace plexway::detail::file {
 namespace {
 

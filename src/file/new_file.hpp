@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace plexway::detail::file {
 
@@ -42,8 +43,8 @@ class SignalsHeld {
 /// removes after a kill, and on the list of unfinished files. Links stay links, their ends there or
 /// not. A file that is replaced gives mode and owner to the new one; one that may not be written
 /// is not. A target that exists and is no regular file (a pipe, a device) is written directly,
-/// and so is standard output, by the name that `standard_output.hpp` gives it. All but `write`
-/// throw Error "cannot write FILE: reason"; without `commit` nothing is left behind.
+/// and so is standard output, by the name that format_on_standard_output() gives it. All but
+/// `write` throw Error "cannot write FILE: reason"; without `commit` nothing is left behind.
 class NewFile {
  public:
   explicit NewFile(const std::filesystem::path& file);
@@ -91,5 +92,18 @@ class NewFile {
 
 /// Where a chain of symbolic links ends, be there a file or not. Throws std::system_error.
 std::filesystem::path end_of_links(std::filesystem::path file);
+
+/// Thrown where the reader of standard output went away: no error, but no reason to go on.
+struct OutputClosed {};
+
+/// "FORMAT:-" is standard output as a file of that format: the format, ascii letters in lower case
+/// and digits, or nothing for any other name. A file of such a name is "./FORMAT:-".
+inline std::string_view format_on_standard_output(std::string_view name) {
+  if (name.size() < 4 || name.size() > 10 || !name.ends_with(":-")) return {};
+  name.remove_suffix(2);
+  for (const char c : name)
+    if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'))) return {};
+  return name;
+}
 
 }  // namespace plexway::detail::file

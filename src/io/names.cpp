@@ -9,7 +9,6 @@
 #include <plexway/error.hpp>
 
 #include "file/new_file.hpp"
-#include "file/standard_output.hpp"
 
 namespace plexway::io {
 

@@ -1,4 +1,4 @@
-#include "metric/triangle_times.hpp"
+#include <plexway/metric/edge_lengths.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -7,10 +7,11 @@
 #include <plexway/error.hpp>
 #include <plexway/paths/path_field.hpp>
 
+#include "complexes/common/number_range.hpp"
 #include "executors/checks.hpp"
-#include "executors/growth.hpp"
+#include "executors/solid_growth.hpp"
+#include "executors/surface_growth.hpp"
 #include "paths/cloud_points.hpp"
-#include "paths/infinity.hpp"
 
 namespace plexway {
 using namespace detail;

@@ -8,9 +8,9 @@
 #include <plexway/paths/bounded_search.hpp>
 #include <plexway/solve.hpp>
 
-#include "executors/supported.hpp"
+#include "complexes/common/number_range.hpp"
+#include "executors/checks.hpp"
 #include "pairs/row_work.hpp"
-#include "paths/infinity.hpp"
 
 namespace plexway {
 using namespace detail;

@@ -6,7 +6,8 @@
 #include <plexway/common/ids.hpp>
 #include <plexway/error.hpp>
 
-#include "complexes/common/vertices_outside.hpp"
+#include "complexes/common/arrays.hpp"
+#include "complexes/common/number_range.hpp"
 #include "executors/checks.hpp"
 #include "labels/finish.hpp"
 #include "labels/read_out.hpp"
@@ -15,7 +16,6 @@
 #include "labels/surface/triangle_propagation.hpp"
 #include "labels/wavefront.hpp"
 #include "labels/workspace_state.hpp"
-#include "paths/infinity.hpp"
 
 namespace plexway {
 using namespace detail;

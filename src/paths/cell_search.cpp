@@ -1,11 +1,11 @@
-#include "paths/cell_search.hpp"
+#include "paths/cells.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <queue>
 #include <utility>
 
-#include "paths/infinity.hpp"
+#include "complexes/common/number_range.hpp"
 
 namespace plexway::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "paths/cell_string.hpp"
+#include "paths/cells.hpp"
 
 #include <algorithm>
 #include <cmath>

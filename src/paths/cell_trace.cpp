@@ -1,12 +1,11 @@
-#include "paths/cell_trace.hpp"
+#include "paths/cells.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "paths/cell_search.hpp"
-#include "paths/infinity.hpp"
+#include "complexes/common/number_range.hpp"
 
 namespace plexway::detail {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <variant>
 
+#include "complexes/common/arrays.hpp"
 #include "complexes/common/disjoint_sets.hpp"
-#include "complexes/common/fill_rows.hpp"
 
 namespace plexway::detail {
 namespace {

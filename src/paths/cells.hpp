@@ -1,15 +1,23 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
+#include <unordered_map>
+#include <unordered_set>
 #include <variant>
 #include <vector>
 
+#include <plexway/fields/read_out.hpp>
 #include <plexway/mixed/mixed_complex.hpp>
+#include <plexway/paths/path.hpp>
+#include <plexway/source/point_source.hpp>
 
-#include "complexes/common/point3.hpp"
+#include "complexes/common/geometry.hpp"
 
 namespace plexway::detail {
 
@@ -114,5 +122,113 @@ class ComplexCells final : public Cells {
 
   Pieces pieces_;
 };
+
+/// What paths over cells need of a field.
+struct CellField {
+  const Cells& cells;
+  std::span<const double> distance;                  ///< by number in Cells
+  std::span<const PointSource> sources;              ///< those that it is the field of
+  std::span<const std::array<double, 3>> positions;  ///< one a vertex of the domain; may be empty
+  bool in_space = false;  ///< are lengths those between positions, if there are some?
+};
+
+/// A field's distances by number in Cells.
+template <class Real>
+std::vector<double> cell_distances(const Cells& cells, std::span<const Real> field) {
+  std::vector<double> distance(cells.vertex_count(), std::numeric_limits<double>::infinity());
+  for (std::size_t v = 0; v < field.size(); ++v) {
+    double& d = distance[cells.vertex(static_cast<Index>(v))];
+    d = std::min(d, static_cast<double>(field[v]));
+  }
+  return distance;
+}
+
+/// A shortest path from vertices' distances alone: the shortest way over places in the cells
+/// (search_cells), pulled taut, and searched again over places around the vertices and edges that
+/// hold it, until nothing is gained. Where that is longer by more than 3e-4 than the distance,
+/// inside a cell than a way by one of its corners, or at a vertex shorter by more than 1e-2, so
+/// that the distance is off, with more places. An empty path where none leads.
+Path trace_cells(const CellField& field, const PointSource& point);
+
+/// The distance of a point: the length of its path, but inside of a cell none longer than by a
+/// corner. +inf where unreachable.
+double read_cells(const CellField& field, const PointSource& point, ReadOut level);
+
+/// Where a way goes from a cell into the next: a point of a face that both have.
+struct CellCrossing {
+  CellFace face;
+  std::array<double, 3> at = {};  ///< a coordinate for each vertex of the face, >= 0, sum 1
+};
+
+/// A way from a point to another: straight in each of its cells.
+struct CellString {
+  std::vector<Index> cells;
+  std::array<double, 4> start = {}, end = {};  ///< points of the first and of the last cell
+  std::vector<CellCrossing> crossings;         ///< between cells k and k + 1
+
+  /// The ends of leg k, in cell k.
+  [[nodiscard]] std::array<std::array<double, 4>, 2> leg(const Cell& cell, std::size_t k) const;
+  /// Of leg k.
+  [[nodiscard]] double length(const Cells& all, std::size_t k) const;
+  [[nodiscard]] double length(const Cells& all) const;
+  /// Of crossing k, as coordinates in a cell that has its face.
+  [[nodiscard]] std::array<double, 4> place(const Cell& cell, std::size_t k) const;
+};
+
+/// The point of a cell.
+Point3 place_in(const Cell& cell, const std::array<double, 4>& at);
+
+/// Moves the crossings to where the way through these cells is shortest. That is one minimum, since
+/// lengths are convex in the crossings: Newton's method with a barrier that keeps them in their
+/// faces (Nesterov, Nemirovskii 1994), whose Hessian is a band. Good to 1e-12 of the length; never
+/// longer than before. Cost: about 40 steps, linear in the cells.
+void pull_taut(const Cells& all, CellString& string);
+
+/// A point of a cell, or a vertex by its number in Cells.
+struct CellPoint {
+  Index vertex = none;
+  Index cell = none;
+  std::array<double, 4> at = {};
+};
+
+/// Where ways may end.
+struct CellGoal {
+  CellPoint point;
+  double offset = 0;
+};
+
+/// A way as it was found, and the goal that it leads to.
+struct CellWay {
+  CellString string;
+  std::size_t goal = 0;
+};
+
+/// Places of a face that ways may pass: a coordinate for each vertex of it.
+using FacePlaces = std::vector<std::array<double, 3>>;
+
+/// Some cells, and places of their vertices, edges and faces.
+struct Corridor {
+  struct Hash {
+    std::size_t operator()(const CellFace& face) const {
+      std::uint64_t h = face.corners;
+      for (const Index v : face.vertex) h = (h ^ v) * 0x9e3779b97f4a7c15ull, h ^= h >> 29;
+      return static_cast<std::size_t>(h);
+    }
+  };
+  std::unordered_set<Index> cells;
+  std::unordered_map<CellFace, FacePlaces, Hash> places;
+};
+
+/// The shortest way over places: the vertices, and some points of the edges and faces that cells
+/// share (Lanthier, Maheshwari, Sack 1997). A* by what the distances of a cell's vertices say is
+/// left at least, so a little more is looked at than what the way passes. Nothing where no way
+/// leads. `distance`, by number in Cells, are those of the goals; `places` an edge. Cost: about 3
+/// us a cell looked at with two places.
+std::optional<CellWay> search_cells(const Cells& all, std::span<const double> distance,
+                                    std::span<const CellGoal> goals, const CellPoint& start,
+                                    std::size_t places);
+/// The same over the places of a corridor alone, whatever the distances.
+std::optional<CellWay> search_cells(const Cells& all, const Corridor& corridor,
+                                    std::span<const CellGoal> goals, const CellPoint& start);
 
 }  // namespace plexway::detail

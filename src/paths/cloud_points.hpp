@@ -8,7 +8,7 @@
 #include <plexway/cloud/point_cloud.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "complexes/common/vertices_outside.hpp"
+#include "complexes/common/arrays.hpp"
 #include "executors/cloud_field.hpp"
 
 namespace plexway::detail {

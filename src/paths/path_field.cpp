@@ -9,14 +9,14 @@
 
 #include <plexway/error.hpp>
 
-#include "complexes/common/vertices_outside.hpp"
+#include "complexes/common/arrays.hpp"
 #include "executors/checks.hpp"
-#include "fields/surface_read_out.hpp"
+#include "fields/surface_labels.hpp"
 #include "fields/window_read_out.hpp"
-#include "paths/cell_trace.hpp"
-#include "paths/laid_path.hpp"
+#include "paths/cells.hpp"
 #include "paths/solved.hpp"
 #include "paths/string_paths.hpp"
+#include "paths/strip_paths.hpp"
 #include "paths/surface_trace.hpp"
 
 namespace plexway {

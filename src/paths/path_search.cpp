@@ -9,12 +9,12 @@
 #include <plexway/paths/path_field.hpp>
 #include <plexway/solve.hpp>
 
-#include "complexes/common/vertices_outside.hpp"
+#include "complexes/common/arrays.hpp"
+#include "complexes/common/number_range.hpp"
 #include "executors/checks.hpp"
 #include "labels/surface/saddle_rule.hpp"
 #include "labels/surface/triangle_propagation.hpp"
 #include "labels/wavefront.hpp"
-#include "paths/infinity.hpp"
 #include "paths/surface_trace.hpp"
 
 namespace plexway {

@@ -9,8 +9,8 @@
 #include <plexway/error.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "complexes/common/vertices_outside.hpp"
-#include "paths/laid_path.hpp"
+#include "complexes/common/arrays.hpp"
+#include "paths/strip_paths.hpp"
 
 namespace plexway {
 using namespace detail;

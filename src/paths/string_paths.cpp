@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "paths/infinity.hpp"
+#include "complexes/common/number_range.hpp"
 
 namespace plexway::detail {
 namespace {

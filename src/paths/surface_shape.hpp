@@ -8,7 +8,7 @@
 #include <plexway/solid/detail/tet_record.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
-#include "paths/vector2.hpp"
+#include "complexes/common/geometry.hpp"
 
 namespace plexway::detail {
 

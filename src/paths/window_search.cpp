@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "paths/infinity.hpp"
+#include "complexes/common/number_range.hpp"
 
 namespace plexway::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/cells.hpp"
+#include "render/skins.hpp"
 
 #include <algorithm>
 #include <cmath>

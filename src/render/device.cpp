@@ -1,15 +1,14 @@
-#include "render/device.hpp"
-
 #include <EGL/egl.h>
-
 #include <string>
 #include <string_view>
 
 #include <plexway/error.hpp>
 
-#include "render/shader_text.hpp"
+#include "executors/gl/program.hpp"
+#include "render/device.hpp"
 
 namespace plexway::render {
+
 namespace {
 
 const detail::gl::Display& choose(int number) {

@@ -3,9 +3,8 @@
 #include <GL/glcorearb.h>
 #include <initializer_list>
 
-#include "executors/gl/display.hpp"
-
-namespace plexway::render {}  // namespace plexway::render
+#include "executors/gl/context.hpp"
+#include "executors/gl/program.hpp"
 
 /// The OpenGL functions that drawing calls, found through EGL as those of the executor are.
 #define PLEXWAY_RENDER_FUNCTIONS(F)                                 \
@@ -71,6 +70,10 @@ namespace plexway::render {}  // namespace plexway::render
   F(VIEWPORT, Viewport)
 
 namespace plexway::render {
+
+using detail::gl::ShaderText;
+extern const ShaderText shader_texts[];
+extern const std::size_t shader_text_count;
 
 struct DrawFunctions {
 #define PLEXWAY_RENDER_DECLARE(upper, name) PFNGL##upper##PROC name = nullptr;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/legend.hpp"
+#include "render/composition.hpp"
 
 namespace plexway::render {
 namespace {

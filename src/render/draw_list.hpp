@@ -9,7 +9,7 @@
 
 #include <plexway/render/picture.hpp>
 
-#include "complexes/common/point3.hpp"
+#include "complexes/common/geometry.hpp"
 
 namespace plexway::render {
 using namespace detail;

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "complexes/common/median.hpp"
+#include "complexes/common/arrays.hpp"
 #include "render/camera.hpp"
 #include "render/skins.hpp"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "complexes/common/fill_rows.hpp"
+#include "complexes/common/arrays.hpp"
 #include "complexes/solid/shared_faces.hpp"
 #include "render/skins.hpp"
 

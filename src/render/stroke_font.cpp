@@ -1,4 +1,4 @@
-#include "render/legend.hpp"
+#include "render/composition.hpp"
 
 #include <algorithm>
 #include <cmath>

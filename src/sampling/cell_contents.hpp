@@ -5,7 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "executors/growth.hpp"
+#include "executors/solid_growth.hpp"
+#include "executors/surface_growth.hpp"
 
 namespace plexway::detail {
 

@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "executors/growth.hpp"
+#include "executors/solid_growth.hpp"
+#include "executors/surface_growth.hpp"
 
 namespace plexway::detail {
 

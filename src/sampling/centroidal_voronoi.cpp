@@ -9,9 +9,9 @@
 #include <plexway/sampling/centroidal_voronoi.hpp>
 #include <plexway/solve.hpp>
 
+#include "complexes/common/number_range.hpp"
 #include "executors/checks.hpp"
 #include "paths/cloud_points.hpp"
-#include "paths/infinity.hpp"
 #include "sampling/cell_contents.hpp"
 #include "sampling/cell_moments.hpp"
 

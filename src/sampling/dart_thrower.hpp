@@ -14,9 +14,9 @@
 #include <plexway/error.hpp>
 #include <plexway/sampling/poisson_disk.hpp>
 
-#include "executors/growth.hpp"
+#include "executors/solid_growth.hpp"
+#include "executors/surface_growth.hpp"
 #include "fields/cut_domain.hpp"
-#include "paths/weighted_pieces.hpp"
 #include "sampling/random.hpp"
 
 namespace plexway::detail {

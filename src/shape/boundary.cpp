@@ -16,8 +16,7 @@
 #include <plexway/solve.hpp>
 
 #include "complexes/common/box_tree.hpp"
-#include "complexes/common/closest_point.hpp"
-#include "complexes/common/point3.hpp"
+#include "complexes/common/geometry.hpp"
 #include "complexes/solid/shared_faces.hpp"
 #include "shape/shape_state.hpp"
 

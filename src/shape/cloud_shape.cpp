@@ -7,7 +7,7 @@
 #include <plexway/error.hpp>
 #include <plexway/surface/smoothing.hpp>
 
-#include "complexes/common/point3.hpp"
+#include "complexes/common/geometry.hpp"
 #include "io/names.hpp"
 #include "shape/modules/module.hpp"
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <variant>
 
-#include <plexway/common/detail/rows.hpp>
+#include <plexway/common/detail/storage.hpp>
 #include <plexway/shape/field.hpp>
 #include <plexway/shape/shape.hpp>
 

@@ -8,7 +8,7 @@
 #include <plexway/error.hpp>
 #include <plexway/shape/support.hpp>
 
-#include "complexes/common/point3.hpp"
+#include "complexes/common/geometry.hpp"
 #include "executors/checks.hpp"
 
 namespace plexway::detail {

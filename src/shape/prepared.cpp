@@ -12,7 +12,7 @@
 #include <plexway/shape/support.hpp>
 
 #include "complexes/common/disjoint_sets.hpp"
-#include "complexes/common/kept_parts.hpp"
+#include "complexes/common/kept_archive.hpp"
 #include "executors/checks.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/kept_build.hpp"

@@ -11,7 +11,7 @@
 #include <plexway/paths/path_field.hpp>
 #include <plexway/solve.hpp>
 
-#include "complexes/common/kept_parts.hpp"
+#include "complexes/common/kept_archive.hpp"
 #include "shape/prepared.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/with_executor.hpp"

@@ -10,7 +10,7 @@
 #include <plexway/surface/normals.hpp>
 
 #include "complexes/common/box_tree.hpp"
-#include "complexes/common/point3.hpp"
+#include "complexes/common/geometry.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/boundary.hpp"
 #include "shape/scene.hpp"

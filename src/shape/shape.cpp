@@ -10,7 +10,7 @@
 #include <plexway/io/field.hpp>
 #include <plexway/shape/support.hpp>
 
-#include "complexes/common/closest_point.hpp"
+#include "complexes/common/geometry.hpp"
 #include "io/names.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/files.hpp"

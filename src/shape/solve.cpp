@@ -14,7 +14,7 @@
 #include <plexway/shape/support.hpp>
 #include <plexway/solve.hpp>
 
-#include "executors/supported.hpp"
+#include "executors/checks.hpp"
 #include "executors/threads/share_out.hpp"
 #include "shape/inside.hpp"
 #include "shape/kept_build.hpp"

@@ -10,11 +10,11 @@
 
 #include <plexway/simplicial/simplicial_complex.hpp>
 
-#include "complexes/simplicial/elimination.hpp"
 #include "complexes/simplicial/flat_domain.hpp"
+#include "complexes/simplicial/simplex_shape.hpp"
 
-/// What hides one point of a flat domain of any dimension from another. As Sight (sight.hpp), but
-/// for how the first touch is found.
+/// What hides one point of a flat domain of any dimension from another. As Sight (solid_space.hpp),
+/// but for how the first touch is found.
 namespace plexway::detail::strings {
 /// A point of R^N.
 template <int N>

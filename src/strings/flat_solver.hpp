@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "strings/chains.hpp"
 #include "strings/flat_space.hpp"
 #include "strings/flat_taut.hpp"
 #include "strings/labels.hpp"

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "strings/chains.hpp"
 #include "strings/labels.hpp"
 #include "strings/media_space.hpp"
 

@@ -1,4 +1,4 @@
-#include "strings/strip.hpp"
+#include "strings/pull.hpp"
 
 #include <algorithm>
 

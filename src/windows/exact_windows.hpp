@@ -9,7 +9,6 @@
 #include <plexway/solve/options.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
-#include "windows/bucket_ring.hpp"
 #include "windows/kept_windows.hpp"
 #include "windows/merge.hpp"
 #include "windows/messages.hpp"

@@ -8,7 +8,7 @@
 
 #include <plexway/error.hpp>
 
-#include "windows/cross_edge.hpp"
+#include "windows/entered_triangle.hpp"
 
 namespace plexway::detail::windows {
 namespace {

@@ -13,8 +13,6 @@
 #include <plexway/surface/detail/triangle_record.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
-#include "windows/bucket_ring.hpp"
-#include "windows/cross_edge.hpp"
 #include "windows/entered_triangle.hpp"
 #include "windows/gather.hpp"
 #include "windows/kept_windows.hpp"
@@ -22,9 +20,7 @@
 #include "windows/node_orders.hpp"
 #include "windows/pseudo_source.hpp"
 #include "windows/sheet.hpp"
-#include "windows/spread.hpp"
 #include "windows/vertex_angles.hpp"
-#include "windows/waiting_table.hpp"
 #include "windows/window_sources.hpp"
 
 namespace plexway::detail::windows {

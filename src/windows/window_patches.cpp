@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "labels/pieces/piece_records.hpp"
+#include "labels/pieces/mail.hpp"
 #include "labels/pieces/triangle_patches.hpp"
 
 namespace plexway::detail::windows {

@@ -8,7 +8,7 @@
 #include <plexway/source/point_source.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
-#include "labels/curve_pieces.hpp"
+#include "labels/curve_seeds.hpp"
 #include "windows/entered_triangle.hpp"
 #include "windows/merge.hpp"
 

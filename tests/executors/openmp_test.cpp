@@ -11,7 +11,7 @@
 #include "complexes/test_wires.hpp"
 #include "executors/parity.hpp"
 #include "executors/piece_testing.hpp"
-#include "executors/threads/crowding.hpp"
+#include "executors/threads/team.hpp"
 #include "labels/simplex_testing.hpp"
 #include "labels/solid_solving.hpp"
 #include "labels/solving.hpp"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "complexes/common/kept_parts.hpp"
+#include "complexes/common/kept_archive.hpp"
 #include "fuzz_solve.hpp"
 
 namespace plexway::fuzz_kept {

@@ -11,9 +11,9 @@
 namespace plexway::testing {
 
 /// A device to test on, or none: then the message says why, and the test returns.
-inline std::shared_ptr<gl::Context> device() {
+inline std::shared_ptr<detail::gl::Context> device() {
   try {
-    return gl::Context::of(-1);
+    return detail::gl::Context::of(-1);
   } catch (const NotBuiltError& error) {
     WARN("skipped, no GL device: " << error.what());
     return nullptr;
@@ -22,7 +22,7 @@ inline std::shared_ptr<gl::Context> device() {
 
 /// A device whose arithmetic is IEEE single precision, as the processor's: Mesa's llvmpipe. Others
 /// may take square roots and quotients with an error of some units in the last place.
-inline bool exact(const gl::Context& context) {
+inline bool exact(const detail::gl::Context& context) {
   return context.device().renderer.find("llvmpipe") != std::string::npos;
 }
 

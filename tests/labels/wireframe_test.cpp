@@ -86,7 +86,7 @@ TEMPLATE_TEST_CASE("wireframe: any graph, any schedule, any size of lengths", ""
 
 TEMPLATE_TEST_CASE("wireframe: the hinge kernel of a vertex comes down to sigma + length", "",
                    float, double) {
-  using Kernel = kernel::HingeKernel<TestType, 0>;
+  using Kernel = detail::kernel::HingeKernel<TestType, 0>;
   const TestType none_in_a_point[1] = {0};
   const auto pose = Kernel::make_pose(none_in_a_point);
   TestType sigma = TestType(.7);

@@ -6,9 +6,8 @@
 
 #include "io/field/colours.hpp"
 #include "io/io_testing.hpp"
-#include "render/cells.hpp"
+#include "render/composition.hpp"
 #include "render/drawing.hpp"
-#include "render/legend.hpp"
 #include "render/png.hpp"
 #include "render/skins.hpp"
 

@@ -13,7 +13,7 @@
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 
-#include "complexes/common/point3.hpp"
+#include "complexes/common/geometry.hpp"
 #include "complexes/test_meshes.hpp"
 #include "complexes/test_solids.hpp"
 #include "data/mixed_pieces.hpp"

@@ -19,7 +19,7 @@
 namespace plexway::testing::strings_parts_test {
 namespace {
 
-using namespace strings;
+using namespace detail::strings;
 
 constexpr double pi = std::numbers::pi;
 
@@ -126,9 +126,9 @@ TEST_CASE("a vertex keeps four strings of a source, whatever solids they come th
 
 TEST_CASE("a vertex takes no string twice") {
   VertexLabels at;
-  const strings::Spread spread = {.behind = .5, .reach = 1, .cosine = .99};
+  const detail::strings::Spread spread = {.behind = .5, .reach = 1, .cosine = .99};
   // One that ends in a place at the vertex comes from no direction.
-  strings::Label label = {1, 7, 0, {0, 0, 0}, 0, 1};
+  detail::strings::Label label = {1, 7, 0, {0, 0, 0}, 0, 1};
   CHECK(at.take(label, spread));
   CHECK_FALSE(at.take(label, spread));
   label.distance = .75;
@@ -137,7 +137,7 @@ TEST_CASE("a vertex takes no string twice") {
 }
 
 TEST_CASE("a vertex keeps two strings of a source, and eight where edges are sharp") {
-  for (const Index most : {strings::Spread::few, strings::Spread::many}) {
+  for (const Index most : {detail::strings::Spread::few, detail::strings::Spread::many}) {
     VertexLabels at;
     const auto take = [&](double distance, Index chain) {
       const double angle = chain;

@@ -31,11 +31,12 @@ double share(Random& random) { return static_cast<double>(random()) / 4294967296
 template <class Real>
 std::vector<double> distances(const TetMesh<Real>& mesh, const std::vector<Index>& sources,
                               const std::vector<double>& offsets = {}) {
-  const strings::MediaSpace space(std::make_shared<const strings::SolidSpace>(mesh));
-  strings::Solver solver(space);
-  std::vector<strings::Source> from;
+  const detail::strings::MediaSpace space(
+      std::make_shared<const detail::strings::SolidSpace>(mesh));
+  detail::strings::Solver solver(space);
+  std::vector<detail::strings::Source> from;
   for (std::size_t n = 0; n < sources.size(); ++n) {
-    strings::Source source;
+    detail::strings::Source source;
     source.point = mesh.inside_vertex(sources[n]);
     source.at = space.point(source.point);
     source.offset = n < offsets.size() ? offsets[n] / mesh.unit() : 0;
@@ -50,13 +51,13 @@ std::vector<double> distances(const TetMesh<Real>& mesh, const std::vector<Index
 
 /// The same through a space of one medium.
 std::vector<double> through_media(const CellPlan& plan, Index source) {
-  strings::Parts parts;
+  detail::strings::Parts parts;
   for (const auto& p : plan.places) parts.points.push_back({p[0], p[1], p[2]});
   parts.tets = plan.tets;
   parts.slow_tets.assign(plan.tets.size(), 1);
-  const strings::MediaSpace space(parts);
-  strings::Solver solver(space);
-  strings::Source from;
+  const detail::strings::MediaSpace space(parts);
+  detail::strings::Solver solver(space);
+  detail::strings::Source from;
   from.point = source;
   from.at = space.point(source);
   REQUIRE(solver.solve({&from, 1}));
@@ -250,9 +251,10 @@ TEST_CASE("strings from one side of a crack are as long as those back to it") {
 namespace {
 
 std::vector<double> distances_from(const TetMesh<double>& mesh, Index from) {
-  const strings::MediaSpace space(std::make_shared<const strings::SolidSpace>(mesh));
-  strings::Solver solver(space);
-  strings::Source source;
+  const detail::strings::MediaSpace space(
+      std::make_shared<const detail::strings::SolidSpace>(mesh));
+  detail::strings::Solver solver(space);
+  detail::strings::Source source;
   source.point = mesh.inside_vertex(from);
   source.at = space.point(source.point);
   const std::array sources = {source};

@@ -8,7 +8,7 @@
 
 #include <plexway/error.hpp>
 
-#include "complexes/common/point3.hpp"
+#include "complexes/common/geometry.hpp"
 
 namespace plexway::web {
 using namespace detail;

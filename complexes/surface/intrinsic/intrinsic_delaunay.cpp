@@ -5,14 +5,13 @@
 
 #include <plexway/error.hpp>
 
+#include "complexes/common/arrays.hpp"
 #include "complexes/common/building_blocks.hpp"
-#include "complexes/common/kept_parts.hpp"
+#include "complexes/common/kept_archive.hpp"
 #include "complexes/common/simplex_order.hpp"
-#include "complexes/common/vertices_outside.hpp"
 #include "complexes/surface/face_layout.hpp"
 #include "complexes/surface/intrinsic/delaunay_flips.hpp"
 #include "complexes/surface/intrinsic/intrinsic_triangulation.hpp"
-#include "complexes/surface/intrinsic/triangulation_shape.hpp"
 #include "complexes/surface/shape_blocks.hpp"
 
 namespace plexway {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "complexes/common/vertices_outside.hpp"
+#include "complexes/common/arrays.hpp"
 #include "complexes/surface/face_layout.hpp"
 #include "complexes/surface/shape_blocks.hpp"
 #include "complexes/surface/triangle_shape.hpp"

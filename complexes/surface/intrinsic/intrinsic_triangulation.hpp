@@ -9,11 +9,11 @@
 
 #include <plexway/common/ids.hpp>
 #include <plexway/surface/detail/triangle_record.hpp>
+#include <plexway/surface/intrinsic_delaunay.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
 #include "complexes/common/building_blocks.hpp"
 #include "complexes/surface/intrinsic/patch_history.hpp"
-#include "complexes/surface/intrinsic/planar.hpp"
 
 namespace plexway::detail {
 
@@ -103,5 +103,13 @@ class IntrinsicTriangulation {
   PatchHistory history_;
   std::vector<SlotPoint> inserted_;
 };
+
+class FaceLayout;
+class TriangleShapes;
+
+/// The same as of a mesh, before there is one. By any number of threads.
+template <class Real>
+TriangulationShape measure_triangulation(const FaceLayout& layout, const TriangleShapes& shapes,
+                                         int threads);
 
 }  // namespace plexway::detail

@@ -1,4 +1,4 @@
-#include "complexes/surface/intrinsic/triangulation_shape.hpp"
+#include "complexes/surface/intrinsic/intrinsic_triangulation.hpp"
 
 #include <algorithm>
 #include <cmath>

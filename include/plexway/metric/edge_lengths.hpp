@@ -148,6 +148,10 @@ using Metric = std::variant<SimplexTensors, SimplexSpeeds, VertexTensors, Tensor
 [[nodiscard]] std::vector<std::array<double, 3>> triangle_lengths(
     std::span<const Point> positions, std::span<const std::array<Index, 3>> triangles,
     const Metric& metric);
+/// As triangle_lengths by speeds, of triangles that have lengths and no positions.
+[[nodiscard]] std::vector<std::array<double, 3>> triangle_times(
+    std::span<const std::array<double, 3>> lengths, std::span<const std::array<Index, 3>> triangles,
+    const SimplexSpeeds& metric);
 
 /// Lengths of the edges of each tetrahedron (simplex_edges), as TetMesh takes them. Throws as
 /// above, and UsageError for Sides::own: a solid whose speeds jump is a mixed domain

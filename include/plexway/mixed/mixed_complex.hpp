@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include <plexway/common/detail/on_demand.hpp>
+#include <plexway/common/detail/storage.hpp>
 #include <plexway/common/ids.hpp>
 #include <plexway/common/rows_of.hpp>
 #include <plexway/domain/concept.hpp>

@@ -6,10 +6,7 @@
 #include <span>
 #include <utility>
 
-#include <plexway/common/detail/identity.hpp>
-#include <plexway/common/detail/on_demand.hpp>
-#include <plexway/common/detail/rows.hpp>
-#include <plexway/common/detail/unfilled.hpp>
+#include <plexway/common/detail/storage.hpp>
 #include <plexway/common/ids.hpp>
 #include <plexway/common/rows_of.hpp>
 #include <plexway/domain/concept.hpp>

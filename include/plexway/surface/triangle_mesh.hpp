@@ -7,9 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <plexway/common/detail/identity.hpp>
-#include <plexway/common/detail/rows.hpp>
-#include <plexway/common/detail/unfilled.hpp>
+#include <plexway/common/detail/storage.hpp>
 #include <plexway/common/ids.hpp>
 #include <plexway/common/rows_of.hpp>
 #include <plexway/domain/concept.hpp>

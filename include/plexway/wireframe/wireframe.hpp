@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include <plexway/common/detail/identity.hpp>
-#include <plexway/common/detail/rows.hpp>
+#include <plexway/common/detail/storage.hpp>
 #include <plexway/common/ids.hpp>
 #include <plexway/common/rows_of.hpp>
 #include <plexway/domain/concept.hpp>

@@ -10,7 +10,7 @@
 #include <plexway/surface/triangle_mesh.hpp>
 
 #include "executors/gl/front.hpp"
-#include "executors/gl/functions.hpp"
+#include "executors/gl/program.hpp"
 #include "labels/workspace_state.hpp"
 
 namespace plexway::detail::gl {

@@ -5,8 +5,8 @@
 #include <plexway/executors/gl.hpp>
 
 #include "executors/checks.hpp"
+#include "executors/gl/run.hpp"
 #include "executors/gl/seeds.hpp"
-#include "executors/gl/solve.hpp"
 #include "executors/run.hpp"
 
 namespace plexway {

@@ -4,7 +4,7 @@
 #include <plexway/executors/gl.hpp>
 
 #include "executors/checks.hpp"
-#include "executors/gl/solve.hpp"
+#include "executors/gl/run.hpp"
 #include "executors/run.hpp"
 #include "labels/wireframe/wire_propagation.hpp"
 

@@ -1,4 +1,4 @@
-#include "executors/parts/part_drafts.hpp"
+#include "executors/parts/part_pieces.hpp"
 
 #include <bit>
 #include <cmath>

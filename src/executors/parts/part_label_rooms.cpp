@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "complexes/surface/saddle_vertices.hpp"
+#include "complexes/surface/gluing.hpp"
 #include "complexes/surface/shape_blocks.hpp"
 
 namespace plexway::detail {

@@ -8,28 +8,27 @@
 
 #include <plexway/error.hpp>
 
+#include "complexes/common/geometry.hpp"
 #include "complexes/common/number_range.hpp"
 #include "complexes/surface/face_layout.hpp"
 #include "complexes/surface/shape_blocks.hpp"
 #include "executors/parts/deal_faces.hpp"
-#include "executors/parts/part_drafts.hpp"
 #include "labels/pieces/triangle_patches.hpp"
 
 namespace plexway::detail {
 namespace {
 
-using Point = std::array<double, 3>;
 using Corners = std::array<Index, 3>;
 
 /// Shapes in space, measured in a unit that is given.
 class ShapesOfPart final : public TriangleShapes {
  public:
-  ShapesOfPart(std::span<const Point> positions, Faces faces, double unit)
+  ShapesOfPart(std::span<const Point3> positions, Faces faces, double unit)
       : shapes_(positions, faces), unit_(unit) {}
   void look_up(std::span<const Index> faces, ShapeBlock& block) const override {
     shapes_.look_up(faces, block);
   }
-  [[nodiscard]] std::span<const Point> positions() const override { return shapes_.positions(); }
+  [[nodiscard]] std::span<const Point3> positions() const override { return shapes_.positions(); }
   [[nodiscard]] double unit() const override { return unit_; }
 
  private:
@@ -38,7 +37,7 @@ class ShapesOfPart final : public TriangleShapes {
 };
 
 template <class Real>
-void check_size(Index face, const std::array<Point, 3>& corners, double unit) {
+void check_size(Index face, const std::array<Point3, 3>& corners, double unit) {
   const auto lengths = lengths_of(corners);
   NumberRange<Real>::check_simplex("face", face,
                                    *std::max_element(lengths.begin(), lengths.end()) / unit);
@@ -73,11 +72,11 @@ class Naming {
   [[nodiscard]] Index name_of(std::size_t place) const { return name_[place]; }
 
   std::vector<Index> vertices;  ///< the surface's, in the order of their names
-  std::vector<Point> positions;
+  std::vector<Point3> positions;
   std::vector<Corners> faces;
 
  private:
-  Index named(Index& name, Index vertex, const Point& position) {
+  Index named(Index& name, Index vertex, const Point3& position) {
     if (name == none) {
       name = static_cast<Index>(vertices.size());
       vertices.push_back(vertex);

@@ -10,7 +10,7 @@
 
 #include <plexway/error.hpp>
 
-#include "complexes/common/closest_point.hpp"
+#include "complexes/common/geometry.hpp"
 
 namespace plexway::detail {
 namespace {

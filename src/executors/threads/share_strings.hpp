@@ -6,7 +6,6 @@
 
 #include <plexway/executors.hpp>
 
-#include "executors/threads/crowding.hpp"
 #include "executors/threads/team.hpp"
 #include "strings/labels.hpp"
 

@@ -16,10 +16,9 @@
 
 #include "complexes/partition/cut.hpp"
 #include "complexes/partition/deal.hpp"
-#include "executors/threads/crowding.hpp"
-#include "executors/threads/piece_post.hpp"
+#include "executors/threads/rank_mail.hpp"
 #include "executors/threads/team.hpp"
-#include "labels/piece_memory.hpp"
+#include "labels/label_memory.hpp"
 #include "labels/pieces/mail.hpp"
 #include "labels/progress_counter.hpp"
 

@@ -9,7 +9,7 @@
 
 #include <plexway/error.hpp>
 
-#include "complexes/common/point3.hpp"
+#include "complexes/common/geometry.hpp"
 #include "io/surface/polygons.hpp"
 
 namespace plexway::io {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "complexes/partition/partition.hpp"
-#include "labels/pieces/piece_records.hpp"
+#include "labels/pieces/mail.hpp"
 
 namespace plexway::detail {
 namespace {

@@ -11,7 +11,6 @@
 #include "complexes/partition/deal.hpp"
 #include "labels/front.hpp"
 #include "labels/label_memory.hpp"
-#include "labels/piece_memory.hpp"
 #include "labels/pieces/mail.hpp"
 
 namespace plexway::detail {

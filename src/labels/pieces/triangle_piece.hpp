@@ -12,7 +12,7 @@
 #include "labels/pieces/mail.hpp"
 #include "labels/pieces/triangle_patches.hpp"
 #include "labels/read_out.hpp"
-#include "labels/surface/triangle_spread.hpp"
+#include "labels/surface/triangle_propagation.hpp"
 #include "labels/wavefront.hpp"
 
 namespace plexway::detail {

@@ -9,10 +9,10 @@
 #include <plexway/solve/distance_field.hpp>
 #include <plexway/wireframe/wireframe.hpp>
 
-#include "complexes/partition/range_cut.hpp"
-#include "labels/piece_memory.hpp"
+#include "complexes/partition/cut.hpp"
+#include "labels/label_memory.hpp"
 #include "labels/pieces/mail.hpp"
-#include "labels/wireframe/wire_spread.hpp"
+#include "labels/wireframe/wire_propagation.hpp"
 
 namespace plexway::detail {
 

@@ -9,7 +9,7 @@
 
 #include <plexway/support.hpp>
 
-#include "complexes/common/point3.hpp"
+#include "complexes/common/geometry.hpp"
 
 namespace plexway::detail {
 namespace {

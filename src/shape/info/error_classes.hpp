@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <plexway/shape/shape.hpp>
-#include "shape/info/report.hpp"
+#include "shape/words.hpp"
 
 namespace plexway::detail {
 

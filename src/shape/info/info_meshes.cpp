@@ -9,7 +9,7 @@
 #include <plexway/solid/tet_mesh.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
-#include "complexes/common/point3.hpp"
+#include "complexes/common/geometry.hpp"
 #include "shape/boundary.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/info/solve_words.hpp"

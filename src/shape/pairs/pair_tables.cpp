@@ -1,4 +1,4 @@
-#include "shape/pairs/pair_tables.hpp"
+#include "shape/pairs/pair_files.hpp"
 
 #include <algorithm>
 #include <limits>

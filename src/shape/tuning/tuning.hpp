@@ -10,7 +10,7 @@
 #include <plexway/solve/probe_table.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
-#include "shape/info/report.hpp"
+#include "shape/words.hpp"
 
 namespace plexway::detail {
 

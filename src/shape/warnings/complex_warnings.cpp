@@ -17,7 +17,7 @@
 #include "complexes/simplicial/simplex_notches.hpp"
 #include "shape/warnings/sentences.hpp"
 #include "shape/words.hpp"
-#include "strings/mixed_space.hpp"
+#include "strings/mixed_strings.hpp"
 
 namespace plexway {
 using namespace detail;

@@ -11,7 +11,6 @@
 
 #include "complexes/simplicial/simplex_notches.hpp"
 #include "shape/shape_state.hpp"
-#include "shape/warnings/cloud_gaps.hpp"
 #include "shape/warnings/cloud_rims.hpp"
 #include "shape/warnings/sentences.hpp"
 #include "shape/warnings/survey.hpp"

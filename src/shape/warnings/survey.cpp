@@ -4,7 +4,7 @@
 #include <functional>
 #include <numeric>
 
-#include "complexes/common/point3.hpp"
+#include "complexes/common/geometry.hpp"
 #include "shape/shape_state.hpp"
 
 namespace plexway::detail {

@@ -7,7 +7,7 @@
 
 #include <plexway/solve/options.hpp>
 
-#include "file/standard_output.hpp"
+#include "file/new_file.hpp"
 
 namespace plexway::detail::cli {
 

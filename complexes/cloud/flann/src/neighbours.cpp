@@ -9,7 +9,6 @@
 #include <plexway/error.hpp>
 
 #include "complexes/common/disjoint_sets.hpp"
-#include "rows.hpp"
 #include "search.hpp"
 
 namespace plexway::flann {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <cstdio>
+#include <string>
 
 namespace plexway::openvdb {
 
@@ -26,6 +29,13 @@ constexpr std::uint64_t bytes_needed(std::uintmax_t file_bytes) {
 /// Seconds of a processor that it may take.
 constexpr std::uint64_t seconds_needed(std::uintmax_t file_bytes) {
   return 20 + static_cast<std::uint64_t>(file_bytes) / (1 << 20);
+}
+
+/// As messages show numbers: of any size, six digits.
+inline std::string text_of(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", value);
+  return text.data();
 }
 
 }  // namespace plexway::openvdb

@@ -5,7 +5,7 @@
 
 #include <plexway/error.hpp>
 
-#include "number_text.hpp"
+#include "answer.hpp"
 
 namespace plexway::openvdb {
 namespace {

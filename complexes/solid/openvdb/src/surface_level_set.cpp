@@ -10,9 +10,9 @@
 #include <plexway/error.hpp>
 #include <plexway/openvdb/surface.hpp>
 
+#include "answer.hpp"
 #include "closing.hpp"
 #include "grid_bricks.hpp"
-#include "number_text.hpp"
 
 namespace plexway::openvdb {
 namespace {

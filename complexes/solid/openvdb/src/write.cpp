@@ -1,23 +1,100 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Prune.h>
-
+#include <unistd.h>
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <filesystem>
 #include <ios>
 #include <limits>
 #include <ostream>
+#include <streambuf>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <plexway/error.hpp>
 #include <plexway/openvdb/field.hpp>
 #include <plexway/openvdb/level_set.hpp>
 
+#include "answer.hpp"
 #include "bricks.hpp"
-#include "number_text.hpp"
-#include "output_file.hpp"
+#include "file/new_file.hpp"
 
 namespace plexway::openvdb {
+
+/// A file that appears whole or not at all (`file/new_file.hpp`), for OpenVDB, which writes to a
+/// stream and does not look at its state: so this is the stream's buffer, and remembers what went
+/// wrong. The constructor and `commit` throw Error "cannot write FILE: reason".
+class OutputFile : public std::streambuf {
+ public:
+  explicit OutputFile(const std::filesystem::path& file);
+
+  /// Whether what was written can be gone back to.
+  [[nodiscard]] bool seekable() const { return file_.seekable(); }
+  /// Writes what is left, waits until the disk has it, and puts the file in its place.
+  void commit();
+  /// Throws for the reason that the system gave first, or if it gave none, this one.
+  [[noreturn]] void refused(const std::string& otherwise);
+
+ protected:
+  int_type overflow(int_type c) override;
+  int sync() override { return flush() ? 0 : -1; }
+  pos_type seekoff(off_type by, std::ios_base::seekdir from, std::ios_base::openmode) override;
+  pos_type seekpos(pos_type at, std::ios_base::openmode mode) override {
+    return seekoff(off_type(at), std::ios_base::beg, mode);
+  }
+
+ private:
+  bool flush();
+
+  detail::file::NewFile file_;
+  int failure_ = 0;  ///< the first one's errno
+  std::vector<char> buffer_;
+};
+
+OutputFile::OutputFile(const std::filesystem::path& file)
+    : file_(file), buffer_(std::size_t{1} << 16) {
+  setp(buffer_.data(), buffer_.data() + buffer_.size());
+}
+
+bool OutputFile::flush() {
+  if (failure_ == 0) failure_ = file_.write(pbase(), static_cast<std::size_t>(pptr() - pbase()));
+  setp(buffer_.data(), buffer_.data() + buffer_.size());
+  return failure_ == 0;
+}
+
+OutputFile::int_type OutputFile::overflow(int_type c) {
+  if (!flush()) return traits_type::eof();
+  if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+  *pptr() = traits_type::to_char_type(c);
+  pbump(1);
+  return c;
+}
+
+OutputFile::pos_type OutputFile::seekoff(off_type by, std::ios_base::seekdir from,
+                                         std::ios_base::openmode) {
+  if (!seekable() || !flush()) return pos_type(off_type(-1));
+  const int whence = from == std::ios_base::beg   ? SEEK_SET
+                     : from == std::ios_base::cur ? SEEK_CUR
+                                                  : SEEK_END;
+  const off_t at = ::lseek(file_.descriptor(), by, whence);
+  if (at < 0) failure_ = errno;
+  return pos_type(off_type(at));
+}
+
+void OutputFile::commit() {
+  flush();
+  if (failure_ == 0) failure_ = file_.synchronise();
+  if (failure_ != 0) file_.refuse(failure_);
+  file_.commit();
+}
+
+void OutputFile::refused(const std::string& otherwise) {
+  if (failure_ != 0) file_.refuse(failure_);
+  file_.refuse(otherwise);
+}
+
 namespace {
 
 namespace fs = std::filesystem;

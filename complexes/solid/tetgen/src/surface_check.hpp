@@ -5,6 +5,8 @@
 
 #include <plexway/tetgen/piecewise_linear_complex.hpp>
 
+#include "isolated_run.hpp"
+
 namespace plexway::tetgen {
 
 /// Throws InputError naming the vertex whose coordinates are not finite, or the row of `what`.
@@ -22,5 +24,10 @@ void require_closed(std::span<const std::array<Index, 3>> triangles,
 
 /// The same of what a complex can be checked for: indices in range, facets with corners.
 void require_sound(const PiecewiseLinearComplex& complex);
+
+/// Throws what went wrong with `run` in plain words: InputError where the input is to blame, which
+/// names the first facets that cross if `diagnosis` (a run with TetGen's switch -d) found any, and
+/// Error or std::bad_alloc where it is not. `facet` is what a facet is called.
+[[noreturn]] void give_reason(const Run& run, const Run& diagnosis, const std::string& facet);
 
 }  // namespace plexway::tetgen

@@ -11,7 +11,6 @@
 #include <plexway/tetgen/tetrahedralize.hpp>
 
 #include "isolated_run.hpp"
-#include "reason.hpp"
 #include "surface_check.hpp"
 
 namespace plexway::tetgen {

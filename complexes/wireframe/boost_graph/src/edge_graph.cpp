@@ -5,7 +5,7 @@
 #include <plexway/boost_graph/edge_graph.hpp>
 #include <plexway/error.hpp>
 
-#include "complexes/common/vertices_outside.hpp"
+#include "complexes/common/arrays.hpp"
 
 namespace plexway::boost_graph {
 using namespace detail;
