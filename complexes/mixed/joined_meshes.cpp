@@ -144,7 +144,7 @@ TriangleMesh<Real> join_surfaces(std::size_t vertices, std::span<const JoinedPar
     for (const SharedFace& face : seam.shared) {
       if (face.dimension() != 1) continue;
       Index one = none;
-      for (const std::size_t side : {0, 1})
+      for (const std::size_t side : {0U, 1U})
         for (const SharedMember& m : face.members[side]) {
           const std::size_t i = m.corner[0], j = m.corner[1];
           const Index h =

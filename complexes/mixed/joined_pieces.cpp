@@ -142,7 +142,7 @@ class Joiner {
     std::array<Point3, 3> triangle[2];
     Point3 inside[2];
     double size = 0;
-    for (const std::size_t i : {0, 1}) {
+    for (const std::size_t i : {0U, 1U}) {
       const Index piece = i == 0 ? p : q;
       const std::size_t side = hinge.piece[0] == piece ? 0 : 1;
       const auto& member = hinge.member[side];

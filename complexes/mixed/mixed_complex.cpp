@@ -102,7 +102,7 @@ std::size_t MixedComplex<Real>::weld(const Piece& a, const Piece& b,
   }
   std::sort(inside.begin(), inside.end());
   inside.erase(std::unique(inside.begin(), inside.end()), inside.end());
-  for (const std::size_t side : {0, 1}) {
+  for (const std::size_t side : {0U, 1U}) {
     std::vector<Index> partners((side == 0 ? a : b).vertices, 0);
     for (const auto& pair : inside)
       if (++partners[pair[side]] > 16)

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace plexway::detail {
 
@@ -16,7 +17,7 @@ struct TriangleShape {
 
 /// Angles for corners where an edge has no length: right angles, as in the limit of a thin
 /// isosceles triangle; 60 degrees where both have none.
-inline void set_limit_angle(TriangleShape& shape, int i) {
+inline void set_limit_angle(TriangleShape& shape, std::size_t i) {
   const bool both = shape.length[i] == 0 && shape.length[(i + 2) % 3] == 0;
   shape.cosine[i] = both ? 0.5 : 0;
   shape.sine[i] = both ? std::sqrt(0.75) : 1;
@@ -26,18 +27,18 @@ inline void set_limit_angle(TriangleShape& shape, int i) {
 inline TriangleShape shape_from_positions(const std::array<const std::array<double, 3>*, 3>& p) {
   TriangleShape shape{};
   std::array<std::array<double, 3>, 3> edge;
-  for (int i = 0; i < 3; ++i) {
-    for (int d = 0; d < 3; ++d) edge[i][d] = (*p[(i + 1) % 3])[d] - (*p[i])[d];
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t d = 0; d < 3; ++d) edge[i][d] = (*p[(i + 1) % 3])[d] - (*p[i])[d];
     shape.length[i] = std::hypot(edge[i][0], edge[i][1], edge[i][2]);
   }
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     if (shape.length[i] == 0 || shape.length[(i + 2) % 3] == 0) {
       set_limit_angle(shape, i);
       shape.degenerate = true;
       continue;
     }
     std::array<double, 3> u, w;
-    for (int d = 0; d < 3; ++d) {
+    for (std::size_t d = 0; d < 3; ++d) {
       u[d] = edge[i][d] / shape.length[i];
       w[d] = -edge[(i + 2) % 3][d] / shape.length[(i + 2) % 3];
     }
@@ -67,7 +68,7 @@ inline TriangleShape shape_from_lengths(const std::array<double, 3>& length) {
     shape.length = length;
     return shape;
   }
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     const double b = length[i], c = length[(i + 2) % 3], a = length[(i + 1) % 3];
     if (b == 0 || c == 0) {
       set_limit_angle(shape, i);

@@ -138,7 +138,7 @@ class PiecesSolve {
     for (const auto& [one, other, v, w, n, i, j] : edges) {
       const Index place[2] = {static_cast<Index>(points_[one].at.size()),
                               static_cast<Index>(points_[other].at.size())};
-      for (const std::size_t side : {0, 1}) {
+      for (const std::size_t side : {0U, 1U}) {
         SharedPoints& own = points_[side == 0 ? one : other];
         own.number.push_back(static_cast<Index>(known_.size()));
         own.partner.push_back({side == 0 ? other : one, place[1 - side]});

@@ -50,7 +50,7 @@ void finish(const Complex& complex, std::span<const PointSource> sources,
             const WorkspaceState<Real>& workspace, const Scheduler& scheduler,
             DistanceField<Real>& field) {
   NumberRange<Real>::check_unit(complex.unit());
-  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  constexpr Real unreached = std::numeric_limits<Real>::infinity();
   const std::span<const Index> inside = complex.vertices_inside();
   const Real unit = static_cast<Real>(complex.unit()), radius = static_cast<Real>(options.radius);
   field.distance.resize(inside.size());
@@ -59,9 +59,9 @@ void finish(const Complex& complex, std::span<const PointSource> sources,
     for (std::size_t v = begin; v < end; ++v) {
       const Real d = std::abs(workspace.vertex[inside[v]]) * unit;
       const bool in = d <= radius;
-      field.distance[v] = in ? d : infinity;
+      field.distance[v] = in ? d : unreached;
       if constexpr (kLabels)
-        field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
+        field.label[v] = in && d < unreached ? workspace.vertex_source[inside[v]] : none;
     }
   });
   // An offset survives scaling exactly.

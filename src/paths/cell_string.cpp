@@ -249,7 +249,7 @@ std::array<std::array<double, 4>, 2> CellString::leg(const Cell& cell, std::size
   std::array<std::array<double, 4>, 2> ends = {k == 0 ? start : place(cell, k - 1),
                                                k + 1 == cells.size() ? end : place(cell, k)};
   if (cell.corners == 2 && cell.vertex[0] == cell.vertex[1])  // a loop: to the nearer of its ends
-    for (const std::size_t i : {0, 1})
+    for (const std::size_t i : {0U, 1U})
       if (ends[i][0] == 1 || ends[i][1] == 1) {
         const bool second = ends[1 - i][1] > .5;
         ends[i] = {second ? 0. : 1., second ? 1. : 0.};

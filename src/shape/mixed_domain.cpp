@@ -115,7 +115,7 @@ class Adding {
     };
     const auto pairs = nearby_pairs(places(a), places(b), shape_.tolerance);
     const std::array<const Added*, 2> sides = {&a, &b};
-    for (const std::size_t side : {0, 1}) {
+    for (const std::size_t side : {0U, 1U}) {
       std::vector<Index> partner(sides[side]->outer.size(), none);
       for (const auto& pair : pairs) {
         const Index v = pair[side], other = sides[1 - side]->outer[pair[1 - side]];

@@ -105,7 +105,8 @@ void check_same(const Soup& soup, const AnyField& whole, const AnyField& merged,
 TEST_CASE("merged vertices: a soup has the distances of the whole") {
   const std::pair<Soup, double> soups[] = {
       {surface_soup(0), 0}, {surface_soup(1e-9), 1e-8}, {solid_soup(), 0}, {wire_soup(), 0}};
-  for (const auto& [soup, tolerance] : soups) {
+  for (const auto& [one, tolerance] : soups) {
+    const Soup& soup = one;
     const AnyShape joined = soup.apart.merged(tolerance);
     const double epsilon = tolerance > 0 ? 1e-7 : 1e-11;
     const auto first = joined.merged_vertices();

@@ -131,7 +131,7 @@ std::size_t unmatched_edges(const MixedComplex<Real>& complex) {
   // Of two parts, the vertices of the higher one that are the lower one's, and which.
   std::map<std::pair<Index, Index>, std::unordered_map<Index, Index>> shared;
   for (const auto& weld : complex.welds())
-    for (const std::size_t low : {0, 1})
+    for (const std::size_t low : {0U, 1U})
       if (dimension(weld.piece[low]) < dimension(weld.piece[1 - low]))
         shared[{weld.piece[low], weld.piece[1 - low]}][weld.vertex[1 - low]] = weld.vertex[low];
   std::size_t unmatched = 0;
