@@ -160,8 +160,8 @@ function(plexway_add_any)
   endforeach()
   set(folder "${PROJECT_SOURCE_DIR}/src/shape")
   file(GLOB sources CONFIGURE_DEPENDS "${folder}/*.cpp" "${folder}/arguments/*.cpp"
-    "${folder}/errors/*.cpp" "${folder}/modules/*.cpp" "${folder}/pairs/*.cpp"
-    "${folder}/warnings/*.cpp")
+    "${folder}/errors/*.cpp" "${folder}/files/*.cpp" "${folder}/modules/*.cpp"
+    "${folder}/pairs/*.cpp" "${folder}/warnings/*.cpp")
   # Reports and policies are JSON; only the tool asks for them, and does not do without.
   find_package(nlohmann_json QUIET)
   if(TARGET nlohmann_json::nlohmann_json)

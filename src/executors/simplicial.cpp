@@ -1,10 +1,10 @@
 // The loop: labels/simplicial/simplex_propagation.hpp. Flat complexes have those of surface.cpp,
-// solid.cpp and strings/flat_solver.hpp.
+// solid.cpp and strings/flat/flat_solver.hpp.
 
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_simplices.hpp"
-#include "strings/flat_strings.hpp"
+#include "strings/flat/flat_strings.hpp"
 
 namespace plexway {
 using namespace detail;

@@ -1,7 +1,7 @@
 #include <plexway/solve/workspace.hpp>
 
 #include "labels/workspace_state.hpp"
-#include "strings/flat_strings.hpp"
+#include "strings/flat/flat_strings.hpp"
 #include "strings/mixed_strings.hpp"
 #include "strings/solid_strings.hpp"
 

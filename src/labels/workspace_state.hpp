@@ -112,7 +112,7 @@ struct WorkspaceState {
   std::vector<WorkspaceState> parts;              ///< on mixed domains: one a piece
   std::shared_ptr<MixedStrings> media;        ///< likewise, by strings: strings/mixed_strings.hpp
   std::shared_ptr<FlatSolve> flat;            ///< flat complexes of two or three dimensions
-  std::shared_ptr<FlatStrings> flat_strings;  ///< of four: strings/flat_strings.hpp
+  std::shared_ptr<FlatStrings> flat_strings;  ///< of four: strings/flat/flat_strings.hpp
 
   /// Room for a front and marks over so many simplices and a sentinel behind them; all unreached
   /// but the sentinel, which nothing can improve.

@@ -16,7 +16,7 @@
 #include "complexes/common/number_range.hpp"
 #include "executors/checks.hpp"
 #include "labels/workspace_state.hpp"
-#include "paths/cells.hpp"
+#include "paths/cells/cells.hpp"
 #include "paths/solved.hpp"
 #include "paths/straight_walk.hpp"
 #include "strings/mixed_strings.hpp"

@@ -13,7 +13,7 @@
 #include "executors/checks.hpp"
 #include "fields/surface_labels.hpp"
 #include "fields/window_read_out.hpp"
-#include "paths/cells.hpp"
+#include "paths/cells/cells.hpp"
 #include "paths/solved.hpp"
 #include "paths/string_paths.hpp"
 #include "paths/strip_paths.hpp"

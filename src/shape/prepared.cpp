@@ -15,7 +15,7 @@
 #include "complexes/common/kept_archive.hpp"
 #include "executors/checks.hpp"
 #include "shape/arguments/arguments.hpp"
-#include "shape/kept_build.hpp"
+#include "shape/files/kept_build.hpp"
 #include "shape/make_complex.hpp"
 #include "shape/prepared_kind.hpp"
 #include "shape/shape_state.hpp"

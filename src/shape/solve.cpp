@@ -16,8 +16,8 @@
 
 #include "executors/checks.hpp"
 #include "executors/threads/share_out.hpp"
+#include "shape/files/kept_build.hpp"
 #include "shape/inside.hpp"
-#include "shape/kept_build.hpp"
 #include "shape/prepared.hpp"
 #include "shape/shape_state.hpp"
 #include "shape/with_executor.hpp"

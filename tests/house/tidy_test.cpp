@@ -64,7 +64,7 @@ TEST_CASE("internal headers do not open plexway itself") {
   const std::set<std::string> public_too = {
       "src/executors/gl/workspace.hpp",  // what GLWorkspace holds
       "src/executors/run.hpp",           // the verbs, compiled for each executor and domain
-      "src/shape/kept_build.hpp",        // declares BuildOptions
+      "src/shape/files/kept_build.hpp",  // declares BuildOptions
       "src/shape/prepared.hpp",          // what AnyDomain and AnyPathField hold
       "src/shape/shape_state.hpp",       // what AnyShape holds
   };

@@ -17,7 +17,7 @@
 #include <plexway/shape/support.hpp>
 
 #include "folder.hpp"
-#include "shape/files.hpp"
+#include "shape/files/files.hpp"
 #include "shape/kinds.hpp"
 
 namespace files_table_test {

@@ -20,7 +20,7 @@
 #include <plexway/solid/tet_mesh.hpp>
 
 #include "folder.hpp"
-#include "shape/files.hpp"
+#include "shape/files/files.hpp"
 #include "shape/kinds.hpp"
 
 namespace purposes_test {

@@ -1,7 +1,7 @@
 #include <memory>
 #include <string>
 
-#include "shape/files.hpp"
+#include "shape/files/files.hpp"
 #include "shape/words.hpp"
 #include "tool/app.hpp"
 #include "tool/options/input.hpp"

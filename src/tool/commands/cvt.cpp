@@ -10,7 +10,7 @@
 #include <plexway/solve.hpp>
 
 #include "shape/arguments/arguments.hpp"
-#include "shape/files.hpp"
+#include "shape/files/files.hpp"
 #include "tool/app.hpp"
 #include "tool/commands/sampling_command.hpp"
 #include "tool/report/console.hpp"

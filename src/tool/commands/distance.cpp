@@ -15,7 +15,7 @@
 #include "executors/same_work.hpp"
 #include "io/field/field_formats.hpp"
 #include "shape/arguments/arguments.hpp"
-#include "shape/files.hpp"
+#include "shape/files/files.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/level_sets.hpp"

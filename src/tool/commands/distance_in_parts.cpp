@@ -20,7 +20,7 @@
 #include "executors/same_work.hpp"
 #include "executors/threads/rank_mail.hpp"
 #include "shape/arguments/arguments.hpp"
-#include "shape/files.hpp"
+#include "shape/files/files.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/stopwatch.hpp"
 #include "shape/warnings/field_warnings.hpp"

@@ -16,9 +16,9 @@
 #include <plexway/pairs/distance_matrix.hpp>
 
 #include "shape/arguments/arguments.hpp"
-#include "shape/files.hpp"
+#include "shape/files/files.hpp"
+#include "shape/files/kept_build.hpp"
 #include "shape/info/solve_words.hpp"
-#include "shape/kept_build.hpp"
 #include "shape/modules/module.hpp"
 #include "shape/pairs/pair_files.hpp"
 #include "shape/warnings/field_warnings.hpp"

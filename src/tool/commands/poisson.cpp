@@ -8,7 +8,7 @@
 #include <plexway/sampling/poisson_disk.hpp>
 
 #include "io/number_rows.hpp"
-#include "shape/files.hpp"
+#include "shape/files/files.hpp"
 #include "tool/app.hpp"
 #include "tool/commands/sampling_command.hpp"
 #include "tool/report/console.hpp"

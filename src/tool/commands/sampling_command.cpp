@@ -7,7 +7,7 @@
 #include <plexway/shape/shape.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "shape/files.hpp"
+#include "shape/files/files.hpp"
 #include "shape/warnings/survey.hpp"
 #include "tool/report/summary.hpp"
 

@@ -6,7 +6,7 @@
 #include <plexway/shape/support.hpp>
 
 #include "shape/arguments/arguments.hpp"
-#include "shape/files.hpp"
+#include "shape/files/files.hpp"
 #include "shape/info/info_report.hpp"
 #include "shape/words.hpp"
 #include "tool/app.hpp"

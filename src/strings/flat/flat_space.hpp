@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "strings/flat_sight.hpp"
+#include "strings/flat/flat_sight.hpp"
 
 /// A flat domain as strings see it, in any dimension: what SolidSpace is of a solid.
 namespace plexway::detail::strings {

@@ -1,4 +1,4 @@
-#include "shape/files.hpp"
+#include "shape/files/files.hpp"
 
 #include <algorithm>
 #include <array>

@@ -10,7 +10,7 @@
 #include <plexway/solve/options.hpp>
 #include <plexway/source/point_source.hpp>
 
-#include "strings/flat_solver.hpp"
+#include "strings/flat/flat_solver.hpp"
 
 namespace plexway::detail {
 

@@ -1,4 +1,4 @@
-#include "paths/cells.hpp"
+#include "paths/cells/cells.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <plexway/shape/support.hpp>
 
 #include "io/names.hpp"
-#include "shape/kept_build.hpp"
+#include "shape/files/kept_build.hpp"
 #include "shape/shape_state.hpp"
 
 namespace plexway::detail {

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "strings/flat_space.hpp"
-#include "strings/flat_taut.hpp"
+#include "strings/flat/flat_space.hpp"
+#include "strings/flat/flat_taut.hpp"
 #include "strings/labels.hpp"
 
 /// Shortest paths in flat domains of any dimension by strings, as Solver (solve.hpp) in solids:

@@ -1,4 +1,4 @@
-#include "strings/flat_strings.hpp"
+#include "strings/flat/flat_strings.hpp"
 
 #include "strings/to_field.hpp"
 

@@ -14,7 +14,7 @@
 #include "io/names.hpp"
 #include "shape/arguments/arguments.hpp"
 #include "shape/boundary.hpp"
-#include "shape/files.hpp"
+#include "shape/files/files.hpp"
 #include "shape/modules/module.hpp"
 #include "shape/stopwatch.hpp"
 
