@@ -41,7 +41,7 @@ function(plexway_add_fuzzer target format)
       find_package(nlohmann_json QUIET)
       target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src/shape/tuning/policy_file.cpp"
         "${PROJECT_SOURCE_DIR}/src/shape/errors/truth_file.cpp"
-        "${PROJECT_SOURCE_DIR}/src/shape/words.cpp")
+        "${PROJECT_SOURCE_DIR}/src/shape/info/report.cpp" "${PROJECT_SOURCE_DIR}/src/shape/words.cpp")
       target_link_libraries(${target} PRIVATE nlohmann_json::nlohmann_json)
     endif()
   elseif(format STREQUAL "pcd")  # what is looked at before PCL; PCL's own faults are not searched

@@ -4,11 +4,11 @@
 // Three queues change roles: labels being expanded, labels nearer than the limit that wait for the
 // next round, and the others. `cell` is a simplex of one field: field times simplices, plus simplex.
 //
-// A round has three passes (the rounds of src/executors/threads/rounds.hpp): contest.comp takes out what is
-// no longer the least of its cell, settle.comp makes the least the labels of their cells, and the
-// domain's own shader makes the offers of those labels. Each pass reads what the one before wrote
-// and nobody else writes, so a round's result does not depend on who was faster. Between the first
-// two, twins.comp has work to do now and then; between the last two, surface_narrow.comp on surfaces.
+// A round has three passes: contest.comp takes out what is no longer the least of its cell,
+// settle.comp makes the least the labels of their cells, and the domain's own shader makes the
+// offers of those labels. Each pass reads what the one before wrote and nobody else writes, so a
+// round's result does not depend on who was faster. Between the first two, twins.comp has work to do
+// now and then; between the last two, surface_narrow.comp on surfaces.
 
 const uint RUNNING = 0u;
 const uint DONE = 1u;

@@ -1,4 +1,4 @@
-// A surface on the device: TriangleRecord<float> (complex/triangle_record.hpp), 64 bytes.
+// A surface on the device: TriangleRecord<float> (plexway/surface/detail/triangle_record.hpp), 64 bytes.
 
 struct Triangle {
   uint across[3];  // what lies over each edge: triangle << 4, with Across's flags

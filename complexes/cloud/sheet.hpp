@@ -100,6 +100,15 @@ struct CloudParts {
 CloudParts bridge_parts(const SheetRule& rule, std::span<const TangentFrame> frames, Places& places,
                         SheetWedges& sheet);
 
+/// Gives the places on the boundary that paths bend at longer edges, by flips, so that whoever
+/// passes one nearby touches a triangle of it.
+///
+/// A path remembers a saddle only if it crosses an edge that ends there. A line of sight that
+/// passes a corner one triangle further out does not know of it, and some way behind the corner its
+/// neighbour in the shadow would take the source over. In a flat sheet any triangles do.
+void widen_boundary_saddles(const Places& places, std::span<const TangentFrame> frames,
+                            const SheetRule& rule, SheetWedges& sheet);
+
 /// How long the edges of a cloud's triangles are, 0 1, 1 2 and 2 0 of each: over creases, in a
 /// cloud with `noise` (spacings) over all ridges where planes meet, and without a share `flat` of
 /// what is taken for noise (`tangent_length`). None if all are as in space.

@@ -39,6 +39,49 @@ std::vector<Cell> cells_of(Points points) {
   return cell;
 }
 
+constexpr double nearness = 1e-4;
+
+// By its largest coordinate, which is at least 1 / sqrt(3) of its length.
+double size_of(const std::array<double, 3>& p, const std::array<double, 3>& q) {
+  return std::max({std::abs(q[0] - p[0]), std::abs(q[1] - p[1]), std::abs(q[2] - p[2])});
+}
+
+// Of the nearest and the farthest neighbour by that.
+bool may_be_near(double nearest, double farthest) { return nearest < 2 * nearness * farthest; }
+
+// For each point of a the nearest of b.
+std::vector<std::array<Index, 2>> nearest_pairs(Points a, Points b, double tolerance) {
+  // The points of b along one axis, the one in which they spread most; then a band of them each.
+  std::array<double, 3> low = {}, high = {};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [min, max] = std::minmax_element(
+        b.begin(), b.end(), [k](const auto& p, const auto& q) { return p[k] < q[k]; });
+    if (!b.empty()) low[k] = (*min)[k], high[k] = (*max)[k];
+  }
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+  std::vector<Index> order(b.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(), [&](Index i, Index j) {
+    return b[i][axis] != b[j][axis] ? b[i][axis] < b[j][axis] : i < j;
+  });
+
+  std::vector<std::array<Index, 2>> pairs;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const auto from = std::lower_bound(order.begin(), order.end(), a[i][axis] - tolerance,
+                                       [&](Index j, double x) { return b[j][axis] < x; });
+    Index best = none;
+    double nearest = tolerance;
+    for (auto j = from; j != order.end() && b[*j][axis] <= a[i][axis] + tolerance; ++j) {
+      const double d = std::hypot(b[*j][0] - a[i][0], b[*j][1] - a[i][1], b[*j][2] - a[i][2]);
+      if (d < nearest || (d == nearest && (best == none || *j < best))) nearest = d, best = *j;
+    }
+    if (best != none) pairs.push_back({static_cast<Index>(i), best});
+  }
+  return pairs;
+}
+
 }  // namespace
 
 DistinctPoints distinct_points(Points points) {
@@ -73,42 +116,6 @@ DistinctPoints distinct_points(Points points) {
   }
   return result;
 }
-
-namespace detail {
-
-namespace {
-
-constexpr double nearness = 1e-4;
-
-// By its largest coordinate, which is at least 1 / sqrt(3) of its length.
-double size_of(const std::array<double, 3>& p, const std::array<double, 3>& q) {
-  return std::max({std::abs(q[0] - p[0]), std::abs(q[1] - p[1]), std::abs(q[2] - p[2])});
-}
-
-// Of the nearest and the farthest neighbour by that.
-bool may_be_near(double nearest, double farthest) { return nearest < 2 * nearness * farthest; }
-
-}  // namespace
-
-bool may_have_near_twins(Points points, const Neighbours& neighbours) {
-  // By squares of lengths: largest coordinates are at most sqrt(3) less.
-  constexpr double gaps = 3 * (2 * nearness) * (2 * nearness) * (1 + 1e-9);
-  for (Index i = 0; i < points.size(); ++i) {
-    double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
-    const auto p = points[i];
-    for (const Index j : neighbours.around(i)) {
-      const auto& q = points[j];
-      const double x = q[0] - p[0], y = q[1] - p[1], z = q[2] - p[2];
-      const double square = x * x + y * y + z * z;
-      nearest = std::min(nearest, square);
-      farthest = std::max(farthest, square);
-    }
-    if (nearest <= gaps * farthest) return true;
-  }
-  return false;
-}
-
-}  // namespace detail
 
 DistinctPoints without_near_twins(Points points, const Neighbours& neighbours,
                                   const DistinctPoints& places) {
@@ -147,48 +154,25 @@ DistinctPoints without_near_twins(Points points, const Neighbours& neighbours,
   return merged;
 }
 
-}  // namespace plexway
+namespace detail {
 
-namespace plexway::detail {
-
-namespace {
-
-using Points = std::span<const std::array<double, 3>>;
-
-// For each point of a the nearest of b.
-std::vector<std::array<Index, 2>> nearest_pairs(Points a, Points b, double tolerance) {
-  // The points of b along one axis, the one in which they spread most; then a band of them each.
-  std::array<double, 3> low = {}, high = {};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto [min, max] = std::minmax_element(
-        b.begin(), b.end(), [k](const auto& p, const auto& q) { return p[k] < q[k]; });
-    if (!b.empty()) low[k] = (*min)[k], high[k] = (*max)[k];
-  }
-  std::size_t axis = 0;
-  for (std::size_t k = 1; k < 3; ++k)
-    if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
-  std::vector<Index> order(b.size());
-  std::iota(order.begin(), order.end(), Index{0});
-  std::sort(order.begin(), order.end(), [&](Index i, Index j) {
-    return b[i][axis] != b[j][axis] ? b[i][axis] < b[j][axis] : i < j;
-  });
-
-  std::vector<std::array<Index, 2>> pairs;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const auto from = std::lower_bound(order.begin(), order.end(), a[i][axis] - tolerance,
-                                       [&](Index j, double x) { return b[j][axis] < x; });
-    Index best = none;
-    double nearest = tolerance;
-    for (auto j = from; j != order.end() && b[*j][axis] <= a[i][axis] + tolerance; ++j) {
-      const double d = std::hypot(b[*j][0] - a[i][0], b[*j][1] - a[i][1], b[*j][2] - a[i][2]);
-      if (d < nearest || (d == nearest && (best == none || *j < best))) nearest = d, best = *j;
+bool may_have_near_twins(Points points, const Neighbours& neighbours) {
+  // By squares of lengths: largest coordinates are at most sqrt(3) less.
+  constexpr double gaps = 3 * (2 * nearness) * (2 * nearness) * (1 + 1e-9);
+  for (Index i = 0; i < points.size(); ++i) {
+    double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
+    const auto p = points[i];
+    for (const Index j : neighbours.around(i)) {
+      const auto& q = points[j];
+      const double x = q[0] - p[0], y = q[1] - p[1], z = q[2] - p[2];
+      const double square = x * x + y * y + z * z;
+      nearest = std::min(nearest, square);
+      farthest = std::max(farthest, square);
     }
-    if (best != none) pairs.push_back({static_cast<Index>(i), best});
+    if (nearest <= gaps * farthest) return true;
   }
-  return pairs;
+  return false;
 }
-
-}  // namespace
 
 std::vector<std::array<Index, 2>> nearby_pairs(Points a, Points b, double tolerance) {
   std::vector<std::array<Index, 2>> pairs = nearest_pairs(a, b, tolerance);
@@ -198,4 +182,6 @@ std::vector<std::array<Index, 2>> nearby_pairs(Points a, Points b, double tolera
   return pairs;
 }
 
-}  // namespace plexway::detail
+}  // namespace detail
+
+}  // namespace plexway

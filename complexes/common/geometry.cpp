@@ -6,17 +6,14 @@
 #include <plexway/common/closest.hpp>
 #include <plexway/error.hpp>
 #include <plexway/solid/detail/tet_record.hpp>
+#include <plexway/source/point_source.hpp>
 
 #include "complexes/common/geometry.hpp"
 
-namespace plexway {
-using namespace detail;
-
-namespace detail {
-
+namespace plexway::detail {
 namespace {
 
-using Vector = Point3;
+using Positions = std::span<const Point3>;
 
 // A point of a simplex with N corners. All that follows looks for the one closest to the origin.
 template <std::size_t N>
@@ -34,11 +31,11 @@ struct ClosestSoFar {
   }
 };
 
-ClosestSoFar<2> closest(const std::array<Vector, 2>& corners) {
-  const Vector along = minus(corners[1], corners[0]);
+ClosestSoFar<2> closest(const std::array<Point3, 2>& corners) {
+  const Point3 along = minus(corners[1], corners[0]);
   const double length2 = dot(along, along);
   const double t = length2 > 0 ? std::clamp(-dot(corners[0], along) / length2, 0.0, 1.0) : 0.0;
-  Vector at = corners[0];
+  Point3 at = corners[0];
   for (std::size_t k = 0; k < 3; ++k) at[k] += t * along[k];
   if (t == 1) at = corners[1];
   return {dot(at, at), {1 - t, t}};
@@ -46,11 +43,11 @@ ClosestSoFar<2> closest(const std::array<Vector, 2>& corners) {
 
 // The foot of the perpendicular where it lies inside, else the best of the three edges. A triangle
 // without area has only edges.
-ClosestSoFar<3> closest(const std::array<Vector, 3>& corners) {
-  const Vector normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+ClosestSoFar<3> closest(const std::array<Point3, 3>& corners) {
+  const Point3 normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
   const double normal2 = dot(normal, normal);
   if (normal2 > 0) {
-    Vector weight;
+    Point3 weight;
     for (std::size_t i = 0; i < 3; ++i)
       weight[i] = dot(cross(corners[(i + 1) % 3], corners[(i + 2) % 3]), normal);
     const double sum = weight[0] + weight[1] + weight[2];
@@ -69,7 +66,7 @@ ClosestSoFar<3> closest(const std::array<Vector, 3>& corners) {
 }
 
 // The origin itself where it lies inside, else the best of the four faces.
-ClosestSoFar<4> closest(const std::array<Vector, 4>& corners) {
+ClosestSoFar<4> closest(const std::array<Point3, 4>& corners) {
   std::array<double, 4> weight;
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -89,9 +86,9 @@ ClosestSoFar<4> closest(const std::array<Vector, 4>& corners) {
 }
 
 // Makes the numbers above neither overflow nor underflow, whatever the unit.
-double largest_offset(std::span<const Vector> positions, const Vector& point) {
+double largest_offset(Positions positions, const Point3& point) {
   double largest = 0;
-  for (const Vector& position : positions) {
+  for (const Point3& position : positions) {
     for (std::size_t k = 0; k < 3; ++k)
       largest = std::max(largest, std::abs(position[k] / 2 - point[k] / 2));
   }
@@ -107,16 +104,16 @@ bool has_twice(const std::array<std::uint32_t, N>& corners) {
 }
 
 template <std::size_t N>
-SimplexPoint closest_of_all(std::span<const Vector> positions,
+SimplexPoint closest_of_all(Positions positions,
                             std::span<const std::array<std::uint32_t, N>> simplices,
-                            const Vector& point) {
+                            const Point3& point) {
   const double scale = largest_offset(positions, point);
   SimplexPoint best;
   for (std::size_t simplex = 0; simplex < simplices.size(); ++simplex) {
     if (N > 2 && has_twice(simplices[simplex])) continue;  // others have its edges
-    std::array<Vector, N> corners;
+    std::array<Point3, N> corners;
     for (std::size_t i = 0; i < N; ++i) {
-      const Vector& position = positions[simplices[simplex][i]];
+      const Point3& position = positions[simplices[simplex][i]];
       for (std::size_t k = 0; k < 3; ++k) corners[i][k] = (position[k] / 2 - point[k] / 2) / scale;
     }
     const ClosestSoFar<N> found = closest(corners);
@@ -128,23 +125,25 @@ SimplexPoint closest_of_all(std::span<const Vector> positions,
   return best;
 }
 
+std::array<double, 3> column(const Eigen::Matrix3d& m, int i) {
+  return {m(0, i), m(1, i), m(2, i)};
+}
+
 }  // namespace
 
-using Positions = std::span<const Vector>;
-
 SimplexPoint closest_point(Positions positions, std::span<const std::array<std::uint32_t, 2>> edges,
-                           const Vector& point) {
+                           const Point3& point) {
   return closest_of_all(positions, edges, point);
 }
 
 SimplexPoint closest_point(Positions positions,
                            std::span<const std::array<std::uint32_t, 3>> triangles,
-                           const Vector& point) {
+                           const Point3& point) {
   return closest_of_all(positions, triangles, point);
 }
 
 SimplexPoint closest_point(Positions positions, std::span<const std::array<std::uint32_t, 4>> tets,
-                           const Vector& point) {
+                           const Point3& point) {
   return closest_of_all(positions, tets, point);
 }
 
@@ -155,53 +154,9 @@ PointSource source_at(const SimplexPoint& found, std::span<const Index> corners)
   return PointSource::in(static_cast<Index>(found.simplex), found.barycentric);
 }
 
-}  // namespace detail
-
-namespace {
-
-template <std::size_t N>
-PointSource closest_source(Positions positions, std::span<const std::array<Index, N>> simplices,
-                           const Vector& point) {
-  if (simplices.empty()) throw UsageError("there is no simplex to be close to");
-  for (const double x : point)
-    if (!std::isfinite(x)) throw UsageError("the point is not finite");
-  const SimplexPoint found = closest_point(positions, simplices, point);
-  return source_at(found, simplices[found.simplex]);
-}
-
-}  // namespace
-
-PointSource closest(const GivenPoints& positions, std::span<const std::array<Index, 2>> edges,
-                    const Vector& point) {
-  return closest_source(positions, edges, point);
-}
-PointSource closest(const GivenPoints& positions, std::span<const std::array<Index, 3>> triangles,
-                    const Vector& point) {
-  return closest_source(positions, triangles, point);
-}
-PointSource closest(const GivenPoints& positions, std::span<const std::array<Index, 4>> tets,
-                    const Vector& point) {
-  return closest_source(positions, tets, point);
-}
-
-namespace detail {
-
-double squared_distance(const std::array<Vector, 3>& corners) {
+double squared_distance(const std::array<Point3, 3>& corners) {
   return closest(corners).squared_distance;
 }
-
-}  // namespace detail
-
-}  // namespace plexway
-
-namespace plexway::detail {
-namespace {
-
-std::array<double, 3> column(const Eigen::Matrix3d& m, int i) {
-  return {m(0, i), m(1, i), m(2, i)};
-}
-
-}  // namespace
 
 LocalFrame fit_frame(std::span<const std::array<double, 3>> offsets,
                      std::span<const double> weights) {
@@ -238,3 +193,34 @@ LocalFrame fit_frame(std::span<const std::array<double, 3>> offsets,
 }
 
 }  // namespace plexway::detail
+
+namespace plexway {
+using namespace detail;
+namespace {
+
+template <std::size_t N>
+PointSource closest_source(Positions positions, std::span<const std::array<Index, N>> simplices,
+                           const Point3& point) {
+  if (simplices.empty()) throw UsageError("there is no simplex to be close to");
+  for (const double x : point)
+    if (!std::isfinite(x)) throw UsageError("the point is not finite");
+  const SimplexPoint found = closest_point(positions, simplices, point);
+  return source_at(found, simplices[found.simplex]);
+}
+
+}  // namespace
+
+PointSource closest(const GivenPoints& positions, std::span<const std::array<Index, 2>> edges,
+                    const Point3& point) {
+  return closest_source(positions, edges, point);
+}
+PointSource closest(const GivenPoints& positions, std::span<const std::array<Index, 3>> triangles,
+                    const Point3& point) {
+  return closest_source(positions, triangles, point);
+}
+PointSource closest(const GivenPoints& positions, std::span<const std::array<Index, 4>> tets,
+                    const Point3& point) {
+  return closest_source(positions, tets, point);
+}
+
+}  // namespace plexway

@@ -12,7 +12,7 @@
 
 namespace plexway::detail {
 
-/// A point in the plane that a strip of triangles is unfolded into.
+/// A point of a plane, such as the one that a strip of triangles is unfolded into.
 struct Vector2 {
   double x = 0, y = 0;
 

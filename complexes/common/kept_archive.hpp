@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +26,8 @@
 /// A file of parts one after the other, each a number or an array, as this machine has them in
 /// memory. Blocks of 64 bytes: a header (magic, byte order, version), then for each part the size
 /// of an element, their count, and the elements, in the same block if they fit and else from the
-/// next one on, and a trailer with the size of the file and the checksum of all before.
+/// next one on, and a trailer with the size of the file and the checksum of all before. And what
+/// each complex is made of, listed once for writing and reading.
 namespace plexway::detail {
 
 /// Goes up when the meaning of any part changes: what was built before it is not what would be

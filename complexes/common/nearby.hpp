@@ -7,6 +7,8 @@
 #include <plexway/cloud/neighbours.hpp>
 #include <plexway/common/ids.hpp>
 
+// The bodies are in distinct_points.cpp.
+
 namespace plexway::detail {
 
 /// Pairs (i, j) with |a[i] - b[j]| <= tolerance: for each point of one list the nearest of the

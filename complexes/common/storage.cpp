@@ -9,7 +9,7 @@
 
 namespace plexway::detail {
 
-// Those that lie in the array as a whole, so that no memory is taken beyond it.
+// Only the large pages that lie in the array as a whole, so that no memory is taken beyond it.
 void prefer_large_pages([[maybe_unused]] void* start, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
   constexpr std::uintptr_t page = std::uintptr_t{1} << 21;

@@ -11,7 +11,6 @@
 #include <plexway/surface/detail/triangle_record.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
-#include "complexes/cloud/sheet.hpp"
 #include "complexes/common/building_blocks.hpp"
 
 namespace plexway::detail {
@@ -142,8 +141,6 @@ void match_edges(std::size_t vertices, std::span<const std::array<Index, 3>> fac
       [&](const std::optional<Visit>& own) { visit.take(*own); });
 }
 
-class FaceLayout;
-
 /// Which corners meet at each vertex, and how.
 struct VertexFans {
   std::vector<Index> corner;      ///< one corner 3 f + i a vertex, none where unreferenced
@@ -205,14 +202,5 @@ template <class Real>
 void mark_saddles(std::span<TriangleRecord<Real>> triangles, const VertexFans& fans,
                   std::span<const Index> first_use, std::vector<double> excess,
                   const SurfaceHints& hints, std::size_t vertices = 0);
-
-/// Gives the places on the boundary that paths bend at longer edges, by flips, so that whoever
-/// passes one nearby touches a triangle of it.
-///
-/// A path remembers a saddle only if it crosses an edge that ends there. A line of sight that
-/// passes a corner one triangle further out does not know of it, and some way behind the corner its
-/// neighbour in the shadow would take the source over. In a flat sheet any triangles do.
-void widen_boundary_saddles(const Places& places, std::span<const TangentFrame> frames,
-                            const SheetRule& rule, SheetWedges& sheet);
 
 }  // namespace plexway::detail

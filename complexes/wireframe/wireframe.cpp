@@ -15,26 +15,22 @@
 #include "complexes/common/number_range.hpp"
 #include "complexes/common/simplex_order.hpp"
 
-namespace plexway::detail {
+namespace plexway {
+using namespace detail;
+namespace {
 
-/// Vertices along a space-filling (Morton) curve. Positions are finite.
-std::vector<Index> vertices_along_curve(std::span<const std::array<double, 3>> positions);
+using Edges = std::span<const std::array<Index, 2>>;
 
-/// Vertices in blocks of so many that lie together: breadth first, but each block begins where the
-/// oldest neighbour that is left is, or in the next component at its lowest number.
-std::vector<Index> vertices_in_blocks(std::size_t vertices,
-                                      std::span<const std::array<Index, 2>> edges,
-                                      std::size_t block);
-
+// Vertices along a space-filling (Morton) curve. Positions are finite.
 std::vector<Index> vertices_along_curve(std::span<const std::array<double, 3>> positions) {
   std::vector<std::array<Index, 1>> points(positions.size());
   for (Index v = 0; v < positions.size(); ++v) points[v] = {v};
   return along_curve<1>(positions, points);
 }
 
-std::vector<Index> vertices_in_blocks(std::size_t vertices,
-                                      std::span<const std::array<Index, 2>> edges,
-                                      std::size_t block) {
+// Vertices in blocks of so many that lie together: breadth first, but each block begins where the
+// oldest neighbour that is left is, or in the next component at its lowest number.
+std::vector<Index> vertices_in_blocks(std::size_t vertices, Edges edges, std::size_t block) {
   std::vector<Index> begin, neighbour;
   fill_rows(vertices, begin, neighbour, [&](const auto& add) {
     for (const auto& [a, b] : edges) {
@@ -72,14 +68,6 @@ std::vector<Index> vertices_in_blocks(std::size_t vertices,
   }
   return order;
 }
-
-}  // namespace plexway::detail
-
-namespace plexway {
-using namespace detail;
-namespace {
-
-using Edges = std::span<const std::array<Index, 2>>;
 
 void check_edges(std::size_t vertices, Edges edges) {
   if (vertices >= none) throw InputError("more than 4294967294 vertices");

@@ -12,9 +12,9 @@
 #include <plexway/error.hpp>
 #include <plexway/io/formats.hpp>
 #include <plexway/io/labels.hpp>
+#include <plexway/metric/edge_lengths.hpp>
 #include <plexway/shape/open_simplices.hpp>
 
-#include <plexway/metric/edge_lengths.hpp>
 #include "arrays.hpp"
 #include "domain.hpp"
 

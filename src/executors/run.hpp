@@ -11,7 +11,7 @@
 
 #include "executors/checks.hpp"
 #include "executors/same_work.hpp"
-#include "executors/source_parts.hpp"
+#include "executors/sources.hpp"
 #include "executors/threads/share_out.hpp"
 #include "labels/workspace_state.hpp"
 
@@ -25,9 +25,9 @@ namespace plexway::detail {
 template <class Real>
 void take_ball(const SourceParts::Ball& ball, const DistanceField<Real>& alone, double radius,
                bool labels, DistanceField<Real>& field) {
-  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  constexpr Real unreached = std::numeric_limits<Real>::infinity();
   if (field.distance.empty()) {
-    field.distance.assign(alone.distance.size(), infinity);
+    field.distance.assign(alone.distance.size(), unreached);
     field.label.assign(labels ? alone.distance.size() : 0, none);
     field.error.assign(alone.error.size(), 0);
     field.accuracy = alone.accuracy;

@@ -13,6 +13,12 @@
 
 namespace plexway::detail {
 
+/// A field that goes on from what is there. What is known stays, and each new source is propagated
+/// only where it is nearer than those before. Numbers and unit inside. Cost of a source: what it
+/// reaches; nothing is read out.
+template <class Complex>
+class Growth;
+
 /// Weights of a simplex's corners: barycentric coordinates.
 using Weights = std::array<double, 4>;
 

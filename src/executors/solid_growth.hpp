@@ -19,9 +19,6 @@
 
 namespace plexway::detail {
 
-template <class Complex>
-class Growth;
-
 /// In a solid with coordinates: by strings, so that all distances are exact.
 template <class Real>
 class Growth<TetMesh<Real>> {

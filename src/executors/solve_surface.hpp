@@ -52,9 +52,9 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
   shapes.seed(rule, front);
   scheduler.run(propagation, front, mesh.face_count());
 
-  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  constexpr Real unreached = std::numeric_limits<Real>::infinity();
   const std::size_t vertices = mesh.vertex_count();
-  workspace.vertex.assign(vertices, infinity);
+  workspace.vertex.assign(vertices, unreached);
   if constexpr (kLabels) workspace.vertex_source.assign(vertices, none);
   if constexpr (requires { scheduler.read_out(workspace); })
     scheduler.read_out(workspace);
@@ -73,9 +73,9 @@ void solve(const TriangleMesh<Real>& mesh, std::span<const PointSource> sources,
 
   // Without a radius, whole fans are reached or not; so one of its corners tells of a vertex,
   // unless fans only touch there.
-  const bool bounded = options.radius < infinity || front.out_of_budget();
+  const bool bounded = options.radius < unreached || front.out_of_budget();
   for (Index v = 0; v < vertices; ++v)
-    if (!(workspace.vertex[v] < infinity) && mesh.corner_at(v) != none &&
+    if (!(workspace.vertex[v] < unreached) && mesh.corner_at(v) != none &&
         (bounded || !mesh.pinched().empty() || front.reached(mesh.corner_at(v) / 3))) [[unlikely]]
       read_out_around<Real, kLabels>(mesh, rule, front, v, workspace);
   finish<Real, kLabels>(mesh, sources, options, front, workspace, scheduler, field);

@@ -5,7 +5,7 @@
 #include "executors/checks.hpp"
 #include "executors/run.hpp"
 #include "executors/solve_surface.hpp"
-#include "executors/source_parts.hpp"
+#include "executors/sources.hpp"
 #include "executors/threads/piece_scheduler.hpp"
 #include "executors/threads/scheduler.hpp"
 #include "executors/threads/window_scheduler.hpp"

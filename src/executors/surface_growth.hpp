@@ -22,12 +22,6 @@
 
 namespace plexway::detail {
 
-/// A field that goes on from what is there. What is known stays, and each new source is propagated
-/// only where it is nearer than those before. Numbers and unit inside. Cost of a source: what it
-/// reaches; nothing is read out. Of solids: solid_growth.hpp.
-template <class Complex>
-class Growth;
-
 /// A dual queue that keeps a list of what came to wait, the latest as many as there is room for.
 template <class Real>
 class RecentQueue {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include <plexway/fields/read_out.hpp>
 #include <plexway/surface/triangle_mesh.hpp>

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <plexway/cloud/point_cloud.hpp>
-#include <plexway/source/point_source.hpp>
 
 #include "complexes/common/arrays.hpp"
 #include "executors/cloud_field.hpp"

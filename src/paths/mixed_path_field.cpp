@@ -22,6 +22,7 @@
 #include "strings/mixed_strings.hpp"
 
 namespace plexway::detail {
+
 /// Paths, and distances of points, on a mixed domain that strings solved: the strings themselves.
 class MediaPaths {
  public:
@@ -169,13 +170,6 @@ double MediaPaths::at(const PointSource& point, ReadOut level) const {
     if (point.barycentric[i] > 0) sum += point.barycentric[i] * distance_[corner[i]];
   return sum;
 }
-
-template MediaPaths::MediaPaths(const MixedStrings&, std::span<const float>,
-                                std::span<const PointSource>,
-                                std::span<const std::array<double, 3>>);
-template MediaPaths::MediaPaths(const MixedStrings&, std::span<const double>,
-                                std::span<const PointSource>,
-                                std::span<const std::array<double, 3>>);
 
 }  // namespace plexway::detail
 

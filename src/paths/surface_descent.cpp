@@ -1,6 +1,5 @@
-// Along edges.
-
 #include <algorithm>
+#include <functional>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -13,16 +12,18 @@
 
 namespace plexway::detail {
 
-/// A way along edges from a vertex to a source, over falling distances.
-///
-///   distance(v)         the field's, +inf where unreached
-///   end(v)              what is left to walk where a source is in a simplex at v, else +inf
-///   edges(v, visit)     calls visit(w, length)
-///
-/// Distances fall along it, so it ends. Where they should not fall any more before a source
-/// (distances of an approximate field may have a dent), Dijkstra's algorithm on edges takes over;
-/// each vertex is settled once. Empty if no source can be reached by edges. Cost: the path's edges;
-/// at worst those of the whole domain.
+namespace {
+
+// A way along edges from a vertex to a source, over falling distances.
+//
+//   distance(v)         the field's, +inf where unreached
+//   end(v)              what is left to walk where a source is in a simplex at v, else +inf
+//   edges(v, visit)     calls visit(w, length)
+//
+// Distances fall along it, so it ends. Where they should not fall any more before a source
+// (distances of an approximate field may have a dent), Dijkstra's algorithm on edges takes over;
+// each vertex is settled once. Empty if no source can be reached by edges. Cost: the path's edges;
+// at worst those of the whole domain.
 template <class Distance, class End, class Edges>
 std::vector<Index> descend_edges(Index from, Distance distance, End end, Edges edges) {
   std::vector<Index> way = {from};
@@ -92,6 +93,8 @@ std::vector<Index> descend_edges(Index from, Distance distance, End end, Edges e
   way.insert(way.end(), rest.rbegin(), rest.rend());
   return way;
 }
+
+}  // namespace
 
 /// A triangle with the edge (v, w), and the direction of w at v.
 template <class Real>

@@ -86,10 +86,7 @@ PulledWay SurfaceTrace<Real>::find(const PointSource& point, const TraceOptions&
   return best;
 }
 
-template class SurfaceTrace<float>;
-template class SurfaceTrace<double>;
-
-// The shortest way of all, near one that is known.
+/// The shortest way of all, near one that is known.
 template <class Real>
 void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
                                         const TraceOptions& options, PulledWay& best) const {
@@ -162,11 +159,6 @@ void SurfaceTrace<Real>::search_windows(Index f, const std::array<double, 3>& b,
   }
   best.capped = !seen || margin > 0;
 }
-
-template void SurfaceTrace<float>::search_windows(Index, const std::array<double, 3>&,
-                                                  const TraceOptions&, PulledWay&) const;
-template void SurfaceTrace<double>::search_windows(Index, const std::array<double, 3>&,
-                                                   const TraceOptions&, PulledWay&) const;
 
 /// From triangle to triangle, each time to where the nearest window says that the path came in.
 /// Distances of vertices on the way fall, and there is a most of steps, so it ends; false if it
@@ -263,7 +255,7 @@ bool SurfaceTrace<Real>::follow_windows(Index f, std::array<double, 3> at, Strip
   return false;
 }
 
-template bool SurfaceTrace<float>::follow_windows(Index, std::array<double, 3>, StripWay&) const;
-template bool SurfaceTrace<double>::follow_windows(Index, std::array<double, 3>, StripWay&) const;
+template class SurfaceTrace<float>;
+template class SurfaceTrace<double>;
 
 }  // namespace plexway::detail

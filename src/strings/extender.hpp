@@ -9,13 +9,11 @@
 #include "strings/solid_space.hpp"
 #include "strings/state.hpp"
 
-/// Takes the strings of a node on to others.
 namespace plexway::detail::strings {
 
-// Ways around a vertex of the boundary.
-
-/// The solid near a vertex as seen from there: directions, and the faces between them. Strings turn
-/// about rows of edges; unfolded, a way from one direction to another is as long as its angles.
+/// Ways around a vertex of the boundary: the solid near a vertex as seen from there: directions,
+/// and the faces between them. Strings turn about rows of edges; unfolded, a way from one direction
+/// to another is as long as its angles.
 class Corner {
  public:
   /// A row of edges at the vertex, the way from there, and the angle up to there.
@@ -53,10 +51,11 @@ class Corner {
   double turned_ = 0;
 };
 
-/// A string goes on to a node that shares an edge, through each place of the point as well. It is
-/// pulled taut; where it leaves a patch it slides on to the row there, where it wants back in it is
-/// let, what it lifts off is dropped, and where a leg leaves its medium the bend that it touches
-/// first is put in. The state is only read: each thread has an extender of its own.
+/// Takes the strings of a node on to others. A string goes on to a node that shares an edge,
+/// through each place of the point as well. It is pulled taut; where it leaves a patch it slides on
+/// to the row there, where it wants back in it is let, what it lifts off is dropped, and where a
+/// leg leaves its medium the bend that it touches first is put in. The state is only read: each
+/// thread has an extender of its own.
 class Extender {
  public:
   explicit Extender(const State& state)

@@ -17,9 +17,8 @@
 /// What vertices know of the strings that reach them.
 namespace plexway::detail::strings {
 
-// Chains of places that strings bend at, from a source on. Each is kept once, as the chain before
-// it and one more place, so that two strings along the same places have the same number.
-
+/// Chains of places that strings bend at, from a source on. Each is kept once, as the chain before
+/// it and one more place, so that two strings along the same places have the same number.
 class Chains {
  public:
   /// One link: what comes before it, and the place at its end. Of a root the source.

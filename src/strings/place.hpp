@@ -11,7 +11,8 @@
 
 #include <plexway/solid/detail/tet_record.hpp>
 
-/// Where strings bend: straight rows of edges with more than pi of solid around them, and vertices.
+/// Strings, and where they bend: straight rows of edges with more than pi of solid around them, and
+/// vertices.
 namespace plexway::detail::strings {
 
 using Point = Vector3<double>;

@@ -13,12 +13,11 @@
 #include "complexes/common/box_tree.hpp"
 #include "strings/boundary.hpp"
 
-/// A flat solid as strings see it. What follows from the mesh alone, so that solves share it.
 namespace plexway::detail::strings {
 
-// What hides one point of a solid from another, and what a string touches first where it is moved
-// from a free place to one that is hidden.
-
+/// What hides one point of a solid from another, and what a string touches first where it is moved
+/// from a free place to one that is hidden.
+///
 /// A straight leg is free if it leaves the solid nowhere: so only the boundary is looked at, and of
 /// that only faces that have some of the solid behind their plane. A convex solid has none.
 class Sight {
@@ -71,6 +70,7 @@ class Sight {
   BoxTree<3> tree_;
 };
 
+/// A flat solid as strings see it: what follows from the mesh alone, so that solves share it.
 class SolidSpace {
  public:
   /// Cost: linear in the tetrahedra, and n log n in the boundary.

@@ -34,13 +34,13 @@ inline Limits limits_of(const PropagateOptions& options, double unit, std::size_
 template <class Solver, class Number, class Real>
 void to_field(const Solver& solver, std::size_t vertices, const Number& number, double unit,
               std::span<const PointSource> sources, double radius, DistanceField<Real>& field) {
-  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  constexpr Real unreached = std::numeric_limits<Real>::infinity();
   field.distance.resize(vertices);
   field.label.assign(sources.size() > 1 ? vertices : 0, none);
   for (Index v = 0; v < vertices; ++v) {
     const Real d = static_cast<Real>(solver.distance(number(v)) * unit);
-    const bool in = d <= static_cast<Real>(radius) && d < infinity;
-    field.distance[v] = in ? d : infinity;
+    const bool in = d <= static_cast<Real>(radius) && d < unreached;
+    field.distance[v] = in ? d : unreached;
     if (in && sources.size() > 1) field.label[v] = solver.source(number(v));
   }
   // An offset survives scaling exactly, and a vertex that no simplex has is a source all the same.

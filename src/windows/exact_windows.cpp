@@ -6,12 +6,12 @@
 
 #include <plexway/error.hpp>
 
+#include "complexes/common/number_range.hpp"
 #include "windows/entered_triangle.hpp"
 
 namespace plexway::detail::windows {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// What single precision may be off, relative.
 constexpr double single = static_cast<double>(std::numeric_limits<float>::epsilon());
 

@@ -225,9 +225,9 @@ class Gathered : public Overlay<Real> {
   Real length_ = 0, scale_ = 0;
 };
 
-/// A window's light through a triangle, onto both edges it may leave by, at once: lanes left near,
-/// left far, right near, right far. Each edge is measured from its pivot, A or B, so that left and
-/// right, near and far are one formula; near is the end on the pivot's side.
+/// Of merged windows: a window's light through a triangle, onto both edges it may leave by, at
+/// once: lanes left near, left far, right near, right far. Each edge is measured from its pivot, A
+/// or B, so that left and right, near and far are one formula; near is the end on the pivot's side.
 template <class Real>
 struct Spread {
   using L = kernel::Lanes<Real>;

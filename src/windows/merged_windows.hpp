@@ -134,14 +134,14 @@ class MergedWindows {
   template <class Distance, class Fill>
   static bool fill_holes(std::span<const TriangleRecord<Real>> triangles, Index own,
                          const Distance& distance, const Fill& fill) {
-    constexpr Real infinity = std::numeric_limits<Real>::infinity();
+    constexpr Real unreached = std::numeric_limits<Real>::infinity();
     bool any = false;
     for (Index f = 0; f < own; ++f) {
       const TriangleRecord<Real>& t = triangles[f];
       for (std::size_t e = 0; e < 3; ++e)
         for (const auto& [from, to] : {std::pair(e, edge_after(e)), std::pair(edge_after(e), e)}) {
           const Index v = t.corner[from], w = t.corner[to];
-          if (distance(w) < infinity || !(distance(v) < infinity)) continue;
+          if (distance(w) < unreached || !(distance(v) < unreached)) continue;
           fill(v, w, distance(v) + t.length[e]);
           any = true;
         }

@@ -92,9 +92,9 @@ class PiecedWindows {
 
   template <class Scheduler>
   void gather(const Scheduler& scheduler, bool is_bounded) {
-    constexpr Number infinity = std::numeric_limits<Number>::infinity();
+    constexpr Number unreached = std::numeric_limits<Number>::infinity();
     const std::size_t vertices = mesh_.vertex_count();
-    distance_.assign(vertices, infinity);
+    distance_.assign(vertices, unreached);
     error_.resize(vertices);
     if (labels_) source_.resize(vertices);
     const auto take = [&](Index v, const Known& known) {
@@ -146,7 +146,7 @@ class PiecedWindows {
         const Known known = patches_.deal().is_ours(p) ? known_of(p, i) : others[p][i];
         const Number d = known.distance;
         if (d < distance_[v] ||
-            (labels_ && d == distance_[v] && d < infinity && known.source < source_[v]))
+            (labels_ && d == distance_[v] && d < unreached && known.source < source_[v]))
           take(v, known);
       }
     }

@@ -46,7 +46,7 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
                                   const Scheduler& scheduler, WorkspaceState<Real>& workspace,
                                   DistanceField<Real>& field) const {
   NumberRange<Real>::check_unit(mesh_.unit());
-  constexpr Real infinity = std::numeric_limits<Real>::infinity();
+  constexpr Real unreached = std::numeric_limits<Real>::infinity();
   const Real radius = static_cast<Real>(options.radius);
   const auto inside = mesh_.vertices_inside();
   if constexpr (!works_in_place<Windows>) workspace.vertex.resize(inside.size());
@@ -57,7 +57,7 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
     for (std::size_t i = begin; i < end; ++i) {
       const Index v = static_cast<Index>(i);
       const auto d = windows.distance(v);
-      some += d < infinity;
+      some += d < unreached;
       if constexpr (!works_in_place<Windows>) workspace.vertex[v] = static_cast<Real>(d);
       if constexpr (kLabels) workspace.vertex_source[v] = windows.source(v);
     }
@@ -68,7 +68,7 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
   if (reached_vertices < inside.size() / 16) {
     part.emplace();
     for (Index v = 0; v < inside.size(); ++v)
-      if (windows.distance(v) < infinity) part->vertices.push_back(v);
+      if (windows.distance(v) < unreached) part->vertices.push_back(v);
     part->find_triangles(mesh_);
   }
   field.statistics = windows.statistics();
@@ -86,9 +86,9 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
       const Real d =
           static_cast<Real>(static_cast<double>(workspace.vertex[inside[v]]) * mesh_.unit());
       const bool in = d <= radius;
-      field.distance[v] = in ? d : infinity;
+      field.distance[v] = in ? d : unreached;
       if constexpr (kLabels)
-        field.label[v] = in && d < infinity ? workspace.vertex_source[inside[v]] : none;
+        field.label[v] = in && d < unreached ? workspace.vertex_source[inside[v]] : none;
     }
   });
   for (std::size_t n = 0; n < sources.points.size(); ++n) {
@@ -106,7 +106,7 @@ void WindowSolver<Real>::read_out(const Windows& windows, const WindowSources& s
       part ? part->triangles.size() : mesh_.face_count(), [&](std::size_t begin, std::size_t end) {
         std::size_t some = 0;
         for (std::size_t n = begin; n < end; ++n)
-          some += windows.distance(triangles[part ? part->triangles[n] : n].corner[0]) < infinity;
+          some += windows.distance(triangles[part ? part->triangles[n] : n].corner[0]) < unreached;
         reached.fetch_add(some, std::memory_order_relaxed);
       });
   field.statistics.reached_simplices = reached.load(std::memory_order_relaxed);

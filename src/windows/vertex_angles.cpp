@@ -1,8 +1,9 @@
 #include "windows/vertex_angles.hpp"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "complexes/common/number_range.hpp"
 
 namespace plexway::detail::windows {
 namespace {
@@ -11,7 +12,6 @@ namespace {
 constexpr double least_bend = 2e-6;
 
 double excess(double total, VertexAngles::Kind kind) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   if (kind == VertexAngles::irregular) return infinity;
   if (kind == VertexAngles::inner) return total - 2 * std::numbers::pi;
   const double bend = total - std::numbers::pi;

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "labels/pieces/mail.hpp"
 #include "labels/pieces/triangle_patches.hpp"
 
 namespace plexway::detail::windows {

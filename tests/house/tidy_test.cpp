@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cctype>
 #include <filesystem>
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
@@ -87,6 +88,16 @@ TEST_CASE("internal headers do not open plexway itself") {
     }
   }
   CHECK(met == public_too.size());
+}
+
+TEST_CASE("a folder of the library has at most 26 files") {
+  std::map<fs::path, int> count;
+  for (const char* dir : {"include", "src", "complexes", "shaders"})
+    for (const std::string& file : house::files_under(dir)) ++count[fs::path(file).parent_path()];
+  for (const auto& [folder, files] : count) {
+    INFO(folder.string());
+    CHECK(files <= 26);
+  }
 }
 
 TEST_CASE("the top level is the one agreed on") {

@@ -243,12 +243,8 @@ TEST_CASE("strings from one side of a crack are as long as those back to it") {
     }
 }
 
-}  // namespace
-
 // Strings in lattices of cubes, some left out at random, against the same ones with each cube cut
 // in eight: corners where rows of edges meet, and edges and vertices where cubes only touch.
-
-namespace {
 
 std::vector<double> distances_from(const TetMesh<double>& mesh, Index from) {
   const detail::strings::MediaSpace space(

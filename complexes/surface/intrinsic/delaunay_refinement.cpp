@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "complexes/surface/intrinsic/delaunay_flips.hpp"
+#include "complexes/surface/intrinsic/planar.hpp"
 
 namespace plexway::detail {
 namespace {

@@ -14,6 +14,7 @@
 
 #include "complexes/common/building_blocks.hpp"
 #include "complexes/surface/intrinsic/patch_history.hpp"
+#include "complexes/surface/intrinsic/planar.hpp"
 
 namespace plexway::detail {
 
@@ -104,10 +105,7 @@ class IntrinsicTriangulation {
   std::vector<SlotPoint> inserted_;
 };
 
-class FaceLayout;
-class TriangleShapes;
-
-/// The same as of a mesh, before there is one. By any number of threads.
+/// As measure_triangulation of a mesh, before there is one. By any number of threads.
 template <class Real>
 TriangulationShape measure_triangulation(const FaceLayout& layout, const TriangleShapes& shapes,
                                          int threads);

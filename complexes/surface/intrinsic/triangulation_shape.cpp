@@ -9,6 +9,7 @@
 #include "complexes/surface/shape_blocks.hpp"
 
 namespace plexway {
+using namespace detail;
 
 namespace detail {
 

@@ -143,8 +143,8 @@ using Metric = std::variant<SimplexTensors, SimplexSpeeds, VertexTensors, Tensor
 /// Throws InputError naming the simplex or edge: for a count that does not fit, a vertex out of
 /// range, a speed that is not positive, a tensor that gives an edge no positive length, a length
 /// that is negative, not finite or missing. `positions` are not looked at for GivenLengths, which
-/// only need as many as there are vertices. Cost: linear, but for
-/// tensors and speeds a simplex and GivenLengths, which sort the edges.
+/// only need as many as there are vertices. Cost: linear, but for tensors and speeds a simplex and
+/// GivenLengths, which sort the edges.
 [[nodiscard]] std::vector<std::array<double, 3>> triangle_lengths(
     std::span<const Point> positions, std::span<const std::array<Index, 3>> triangles,
     const Metric& metric);

@@ -9,7 +9,6 @@
 #include <plexway/error.hpp>
 
 #include "executors/gl/context.hpp"
-#include "executors/gl/program.hpp"
 
 namespace plexway::detail::gl {
 namespace {
@@ -80,6 +79,35 @@ std::vector<Display> find_displays() {
     throw NotBuiltError(
         "EGL knows no device on this machine: install a driver, such as libgl1-mesa-dri");
   return found;
+}
+
+std::string text_of(const Functions& gl, GLenum name) {
+  const GLubyte* text = gl.GetString(name);
+  return text == nullptr ? "" : reinterpret_cast<const char*>(text);
+}
+
+// A device that works, preferably one that is not the processor itself.
+int choose() {
+  std::string problems;
+  for (const bool software : {false, true})
+    for (std::size_t n = 0; n < displays().size(); ++n) {
+      if (displays()[n].software != software) continue;
+      try {
+        const NativeContext works(displays()[n]);
+        return static_cast<int>(n);
+      } catch (const NotBuiltError& error) {
+        problems += "; device " + std::to_string(n) + ": " + error.what();
+      }
+    }
+  throw NotBuiltError("no device of this machine can run compute shaders" + problems);
+}
+
+const Display& display_of(int number) {
+  const auto count = displays().size();
+  if (number < 0 || static_cast<std::size_t>(number) >= count)
+    throw UsageError("there is no GL device " + std::to_string(number) + ", only 0 to " +
+                     std::to_string(count - 1));
+  return displays()[static_cast<std::size_t>(number)];
 }
 
 }  // namespace
@@ -158,42 +186,6 @@ MakeCurrent::~MakeCurrent() {
   if (before_context_ != EGL_NO_CONTEXT)
     eglMakeCurrent(before_display_, before_draw_, before_read_, before_context_);
 }
-
-}  // namespace plexway::detail::gl
-
-namespace plexway::detail::gl {
-namespace {
-
-std::string text_of(const Functions& gl, GLenum name) {
-  const GLubyte* text = gl.GetString(name);
-  return text == nullptr ? "" : reinterpret_cast<const char*>(text);
-}
-
-// A device that works, preferably one that is not the processor itself.
-int choose() {
-  std::string problems;
-  for (const bool software : {false, true})
-    for (std::size_t n = 0; n < displays().size(); ++n) {
-      if (displays()[n].software != software) continue;
-      try {
-        const NativeContext works(displays()[n]);
-        return static_cast<int>(n);
-      } catch (const NotBuiltError& error) {
-        problems += "; device " + std::to_string(n) + ": " + error.what();
-      }
-    }
-  throw NotBuiltError("no device of this machine can run compute shaders" + problems);
-}
-
-const Display& display_of(int number) {
-  const auto count = displays().size();
-  if (number < 0 || static_cast<std::size_t>(number) >= count)
-    throw UsageError("there is no GL device " + std::to_string(number) + ", only 0 to " +
-                     std::to_string(count - 1));
-  return displays()[static_cast<std::size_t>(number)];
-}
-
-}  // namespace
 
 std::shared_ptr<Context> Context::of(int number) {
   static std::mutex mutex;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include <plexway/executors/gl.hpp>
 #include <plexway/solve/distance_field.hpp>
@@ -64,13 +65,12 @@ void set_offsets(std::span<const PointSource> sources, const PropagateOptions& o
 std::size_t fields_at_once(const Session& session, const GL& executor, std::size_t sources,
                            std::size_t simplices, std::size_t label_bytes, std::size_t vertices);
 
-// A solve on the device, for any kind of domain. Its Run, a RunOn, says what is particular:
-// `Seeds` (a SeedsOf with `add(domain, sources, field, host workspace)`), `cells(domain)`, the
-// simplices that have labels, `upload(session, domain, buffers)`, `run(seeds, fields)`, until no
-// label waits in so many fields (false if the budget is spent), and `read_out(seeds, distance,
-// label)`, fields times vertices in the caller's order, where `label` may be empty.
-
-/// Several fields over one domain, in one launch.
+/// Several fields over one domain, in one launch. A Run, which derives from this, says what is
+/// particular to a kind of domain: `Seeds` (a SeedsOf with `add(domain, sources, field, host
+/// workspace)`), `cells(domain)`, the simplices that have labels, `upload(session, domain,
+/// buffers)`, `run(seeds, fields)`, until no label waits in so many fields (false if the budget is
+/// spent), and `read_out(seeds, distance, label)`, fields times vertices in the caller's order,
+/// where `label` may be empty.
 template <class D, class Buffers>
 class RunOn {
  public:
@@ -158,7 +158,7 @@ bool solve_each(const GL& executor, const typename Run::Domain& domain,
 
 }  // namespace plexway::detail::gl
 
-/// solve_points and each_point of GL for a domain, and what run.hpp compiles of them.
+/// solve_points and each_point of GL for a domain, and what executors/run.hpp compiles of them.
 #define PLEXWAY_COMPILE_GL(Run)                                                            \
   void solve_points(const GL& executor, const Run::Domain& domain,                         \
                     std::span<const PointSource> sources, const PropagateOptions& options, \

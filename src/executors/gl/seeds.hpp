@@ -1,5 +1,6 @@
 #pragma once
 
+#include <GL/glcorearb.h>
 #include <array>
 #include <span>
 #include <vector>
@@ -10,7 +11,6 @@
 #include <plexway/surface/triangle_mesh.hpp>
 
 #include "executors/gl/front.hpp"
-#include "executors/gl/program.hpp"
 #include "labels/workspace_state.hpp"
 
 namespace plexway::detail::gl {

@@ -4,13 +4,13 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include <plexway/error.hpp>
 
 #include "complexes/common/geometry.hpp"
+#include "complexes/common/number_range.hpp"
 
 namespace plexway::detail {
 namespace {
@@ -103,7 +103,6 @@ PartSources part_sources(PieceRanks* ranks, const PartPieces<Real>& pieces,
         });
   }
   add_up(ranks, told);
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   found.sites.assign(sources.size(), {{infinity, infinity, infinity}, {0, 0, 0}});
   for (std::size_t n = 0; n < sources.size(); ++n) {
     const std::uint64_t* const own = &told[each * n];
@@ -121,7 +120,6 @@ PartPoint nearest_on(const Team& team, const PartPieces<Real>& pieces,
                      const std::array<double, 3>& point) {
   for (const double x : point)
     if (!std::isfinite(x)) throw UsageError("a point's coordinates must be finite");
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   // As a piece sees it; in mean edges.
   const auto from = [&](const PartPiece<Real>& part) {
     std::array<double, 3> seen;

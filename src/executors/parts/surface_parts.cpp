@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,7 +29,9 @@
 #include "windows/exact_windows.hpp"
 #include "windows/merged_windows.hpp"
 
-namespace plexway::detail {
+namespace plexway {
+using namespace detail;
+namespace {
 
 /// The vertices that a process has, by the surface's numbers, ascending.
 template <class Real>
@@ -254,12 +257,6 @@ class PartSolve {
   std::size_t expansions_ = 0;
   PartField<Real> field_;
 };
-
-}  // namespace plexway::detail
-
-namespace plexway {
-using namespace detail;
-namespace {
 
 /// Triangles a piece: enough that ghosts are few, and not more pieces than every process can list.
 std::size_t part_size(const OpenMP& executor, std::size_t faces) {

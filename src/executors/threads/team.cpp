@@ -35,11 +35,44 @@ bool openmp_built() {
 #endif
 }
 
+std::size_t team_size(const OpenMP& executor) {
+  return static_cast<std::size_t>(Team(executor).size());
+}
+
 namespace detail {
 namespace {
 
 constexpr double shortest = 8e-3, longest = 0.5;
 std::atomic<double> alone_until{0}, period{shortest};
+
+#if defined(PLEXWAY_FORKS)
+// A child has none of its parent's threads, and GNU's OpenMP does not know.
+std::atomic<bool> forked{false};
+[[maybe_unused]] const int watched =
+    ::pthread_atfork(nullptr, nullptr, [] { forked.store(true, std::memory_order_relaxed); });
+#endif
+
+#if defined(PLEXWAY_FORKS) || defined(PLEXWAY_TEAM_OF_THREADS)
+// By threads of their own. Who comes first waits until it is known how many the system gave.
+void run_threads(int size, const std::function<void(int, int)>& work) {
+  std::atomic<int> all{0};
+  std::vector<std::thread> threads;
+  threads.reserve(static_cast<std::size_t>(size));
+  try {
+    for (int i = 1; i < size; ++i)
+      threads.emplace_back([&, i] {
+        all.wait(0);
+        work(i, all.load());
+      });
+  } catch (const std::system_error&) {  // then with fewer
+  }
+  const int count = static_cast<int>(threads.size()) + 1;
+  all.store(count);
+  all.notify_all();
+  work(0, count);
+  for (std::thread& thread : threads) thread.join();
+}
+#endif
 
 }  // namespace
 
@@ -85,39 +118,6 @@ Team::Team(const OpenMP& executor) : size_(executor.threads), ranks_(executor.ra
 #endif
 }
 
-namespace {
-
-#if defined(PLEXWAY_FORKS)
-// A child has none of its parent's threads, and GNU's OpenMP does not know.
-std::atomic<bool> forked{false};
-[[maybe_unused]] const int watched =
-    ::pthread_atfork(nullptr, nullptr, [] { forked.store(true, std::memory_order_relaxed); });
-#endif
-
-#if defined(PLEXWAY_FORKS) || defined(PLEXWAY_TEAM_OF_THREADS)
-// By threads of their own. Who comes first waits until it is known how many the system gave.
-void run_threads(int size, const std::function<void(int, int)>& work) {
-  std::atomic<int> all{0};
-  std::vector<std::thread> threads;
-  threads.reserve(static_cast<std::size_t>(size));
-  try {
-    for (int i = 1; i < size; ++i)
-      threads.emplace_back([&, i] {
-        all.wait(0);
-        work(i, all.load());
-      });
-  } catch (const std::system_error&) {  // then with fewer
-  }
-  const int count = static_cast<int>(threads.size()) + 1;
-  all.store(count);
-  all.notify_all();
-  work(0, count);
-  for (std::thread& thread : threads) thread.join();
-}
-#endif
-
-}  // namespace
-
 void Team::run_guarded(const std::function<void(int, int)>& work) const {
   if (size_ == 1) {
     work(0, 1);
@@ -136,14 +136,6 @@ void Team::run_guarded(const std::function<void(int, int)>& work) const {
   work(omp_get_thread_num(), omp_get_num_threads());
 #endif
 }
-
-}  // namespace detail
-
-std::size_t team_size(const OpenMP& executor) {
-  return static_cast<std::size_t>(Team(executor).size());
-}
-
-namespace detail {
 
 void share_out(const OpenMP& executor, std::size_t count,
                const std::function<void(std::size_t, std::size_t)>& work) {

@@ -1,7 +1,7 @@
-// 3MF: objects of triangles as XML in a zip archive, placed by a list of items. Source: 3MF
-// Consortium, Core Specification 1.3 and Production Extension 1.1.
-// PKWARE, .ZIP File Format Specification, sections 4.3.7 (local header), 4.3.12 (central
-// directory), 4.3.14 to 4.3.16 (its ends), 4.5.3 (zip64 field).
+// 3MF: objects of triangles as XML in a zip archive, placed by a list of items. Sources: 3MF
+// Consortium, Core Specification 1.3 and Production Extension 1.1; for the archive PKWARE, .ZIP
+// File Format Specification, sections 4.3.7 (local header), 4.3.12 (central directory), 4.3.14
+// to 4.3.16 (its ends), 4.5.3 (zip64 field).
 
 #include <string>
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "complexes/partition/partition.hpp"
-#include "labels/pieces/mail.hpp"
 
 namespace plexway::detail {
 namespace {

@@ -147,9 +147,9 @@ class TrianglePiece {
 
   /// Tells the peers of labels at the cut that got better. The least of their distances.
   Real post(std::size_t superstep, PieceWork& work) {
-    constexpr Real infinity = std::numeric_limits<Real>::infinity();
+    constexpr Real unreached = std::numeric_limits<Real>::infinity();
     Outbox& box = room_.mail.of(superstep);
-    Real least = infinity;
+    Real least = unreached;
     for (Index i = 0; i < cut_.at_cut; ++i) {
       if (!front_.reached(i) || front_.waits(i)) continue;
       const Real d = spread_.rule().distance(i);
@@ -158,7 +158,7 @@ class TrianglePiece {
       room_.is_new[i] = 1;
       least = std::min(least, d);
     }
-    if (!(least < infinity)) return least;
+    if (!(least < unreached)) return least;
     box.start<Message>(superstep, cut_.peer_count(),
                        [&](std::size_t peer) { return cut_.slots_of(peer).size(); });
     for (std::size_t peer = 0; peer < cut_.peer_count(); ++peer)

@@ -31,9 +31,8 @@ struct AllVertices {
 /// and what is left of the kernel is to walk to the hinge: sigma + length. (That this is the
 /// relaxation of Dijkstra, A note on two problems in connexion with graphs, 1959, is how the field
 /// knows it.) What all edges at a vertex learn from each other is that single number, so the label
-/// belongs to the vertex. A label that
-/// waits to be expanded is kept with its sign turned: what an offer must look up, distance and
-/// whether it waits, is then one number.
+/// belongs to the vertex. A label that waits to be expanded is kept with its sign turned: what an
+/// offer must look up, distance and whether it waits, is then one number.
 template <class Real, bool kLabels>
 class WireSpread {
  public:

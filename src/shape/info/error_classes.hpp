@@ -6,7 +6,8 @@
 #include <vector>
 
 #include <plexway/shape/shape.hpp>
-#include "shape/words.hpp"
+
+#include "shape/info/report.hpp"
 
 namespace plexway::detail {
 

@@ -14,8 +14,8 @@
 #include <plexway/shape/shape.hpp>
 #include <plexway/solid/tet_mesh.hpp>
 
+#include "shape/info/report.hpp"
 #include "shape/warnings/survey.hpp"
-#include "shape/words.hpp"
 
 namespace plexway::detail {
 

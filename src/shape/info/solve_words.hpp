@@ -11,7 +11,7 @@
 #include <plexway/shape/field.hpp>
 #include <plexway/surface/intrinsic_delaunay.hpp>
 
-#include "shape/words.hpp"
+#include "shape/info/report.hpp"
 
 namespace plexway::detail {
 

@@ -10,7 +10,7 @@
 #include <plexway/solve/probe_table.hpp>
 #include <plexway/surface/triangle_mesh.hpp>
 
-#include "shape/words.hpp"
+#include "shape/info/report.hpp"
 
 namespace plexway::detail {
 
@@ -49,7 +49,7 @@ struct TuningRequest {
 struct TuningOutcome {
   Json settings;   ///< all that it depends on
   Json baselines;  ///< mean errors of what is known
-  Json found;      ///< as policy_file.hpp reads it
+  Json found;      ///< as policy_file.cpp reads it
   std::vector<EvolvedParameter> parameters;
   std::vector<double> best;  ///< one a parameter
   double mean_error = 0;

@@ -18,9 +18,9 @@
 #include "io/names.hpp"
 #include "io/output_file.hpp"
 #include "shape/errors/measures.hpp"
+#include "shape/info/report.hpp"
 #include "shape/stopwatch.hpp"
 #include "shape/tuning/tuning.hpp"
-#include "shape/words.hpp"
 
 namespace plexway::detail {
 namespace {

@@ -11,7 +11,6 @@
 #include "shape/warnings/cloud_rims.hpp"
 
 namespace plexway::detail {
-
 namespace {
 
 constexpr std::size_t most_sources = 16;
@@ -22,8 +21,8 @@ constexpr std::size_t most_looks = 64;      // at one point each, a source
 
 constexpr double beside = 2, height = 0.4;  // spacings
 
-/// Tells quickly that a point does not lie in one plane with what is around a source: all that is
-/// within `beside` of the source is near every line from it.
+// Tells quickly that a point does not lie in one plane with what is around a source: all that is
+// within `beside` of the source is near every line from it.
 class AroundSource {
  public:
   AroundSource(const std::vector<Point3>& offsets, double spacing) : height_(height * spacing) {
@@ -53,8 +52,8 @@ class AroundSource {
     }
   }
 
-  /// Is there a plane that could have all of them, and is given by those around the source? No is
-  /// sure.
+  // Is there a plane that could have all of them, and is given by those around the source? No is
+  // sure.
   [[nodiscard]] bool may_be_flat(const Point3& to) const {
     if (is_line_) return false;
     const double along = std::abs(dot(dual_a_, to)) + std::abs(dot(dual_b_, to));
@@ -67,8 +66,8 @@ class AroundSource {
   Point3 a_ = {}, b_ = {}, normal_ = {}, dual_a_ = {}, dual_b_ = {};
 };
 
-/// Do the points near the line from a source to another point lie in one plane? On a surface that
-/// is bent so much that a straight line is a twentieth too short they do not at its ends.
+// Do the points near the line from a source to another point lie in one plane? On a surface that
+// is bent so much that a straight line is a twentieth too short they do not at its ends.
 bool in_one_plane(const std::vector<Point3>& points, const Point3& to, double spacing) {
   constexpr std::size_t least = 6;
   const double length2 = dot(to, to);
@@ -88,75 +87,9 @@ bool in_one_plane(const std::vector<Point3>& points, const Point3& to, double sp
   return high - low <= height * spacing;
 }
 
-}  // namespace
-
-RimDetours rim_detours(std::span<const std::array<double, 3>> positions, double spacing,
-                       std::span<const double> distance, std::span<const std::size_t> sources) {
-  RimDetours detours;
-  std::vector<bool> found(positions.size(), false);
-  std::vector<std::size_t> patch, farther;
-  std::vector<Point3> offsets;
-  for (const std::size_t s : sources.first(std::min(most_sources, sources.size()))) {
-    patch.clear();
-    offsets.clear();
-    for (std::size_t v = 0; v < positions.size(); ++v) {
-      const Point3 q = minus(positions[v], positions[s]);
-      if (!(dot(q, q) <= farthest * farthest * spacing * spacing)) continue;
-      patch.push_back(v);
-      offsets.push_back(q);
-    }
-    if (patch.size() > most_points) continue;
-    const AroundSource around(offsets, spacing);
-    const auto share_of = [&](std::size_t i) {
-      return (distance[patch[i]] - distance[s]) / std::sqrt(dot(offsets[i], offsets[i])) - 1;
-    };
-    farther.clear();
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      if (dot(offsets[i], offsets[i]) < nearest * nearest * spacing * spacing) continue;
-      if (const double share = share_of(i); !(share > longer && share < behind_walls)) continue;
-      if (!found[patch[i]] && around.may_be_flat(offsets[i])) farther.push_back(i);
-    }
-    const std::size_t looks = std::min(most_looks, farther.size());
-    bool any = false;
-    for (std::size_t k = 0; k < looks; ++k) {
-      const std::size_t i = farther[k * farther.size() / looks], v = patch[i];
-      if (!in_one_plane(offsets, offsets[i], spacing)) continue;
-      found[v] = any = true;
-      if (detours.points++ == 0 || v < detours.first) detours.first = v;
-      detours.most = std::max(detours.most, share_of(i));
-    }
-    if (any && looks < farther.size()) detours.all = false;
-  }
-  return detours;
-}
-
-namespace {
-
 constexpr double by_chance = 0.4;  // of even clouds 0 to 0.3, of uniformly random ones 0.52
 constexpr double arm = 8;          // spacings
 constexpr double least_turn = 50 * std::numbers::pi / 180;
-
-}  // namespace
-
-std::vector<double> nearest_neighbours(const CloudShape& shape) {
-  const auto& at = shape.measured();
-  std::vector<double> nearest(at.size(), 0);
-  for (Index v = 0; v < at.size(); ++v)
-    for (const Index w : shape.neighbours.around(v))
-      if (const double d = norm(minus(at[v], at[w])); d > 0 && (nearest[v] == 0 || d < nearest[v]))
-        nearest[v] = d;
-  return nearest;
-}
-
-bool is_scattered(std::span<const double> nearest) {
-  double sum = 0, squares = 0, count = 0;
-  for (const double d : nearest)
-    if (d > 0) sum += d, squares += d * d, ++count;
-  const double mean = sum / count;
-  return count > 0 && squares / count - mean * mean > by_chance * by_chance * mean * mean;
-}
-
-namespace {
 
 // The boundary of a sheet as loops of points, with the angle of the sheet at each.
 class Rims {
@@ -178,7 +111,7 @@ class Rims {
 
   [[nodiscard]] double excess(Index v) const { return angle_[v] - std::numbers::pi; }
 
-  /// Each loop once; what branches is none.
+  // Each loop once; what branches is none.
   template <class Take>
   void each(const Take& take) const {
     std::vector<char> seen(next_.size(), 0);
@@ -225,20 +158,6 @@ ScatteredRims turns_of(const Rims& rims, const std::vector<Point3>& at, double r
   return found;
 }
 
-}  // namespace
-
-template <class Real>
-ScatteredRims scattered_rims(const CloudShape& shape, const PointCloud<Real>& cloud) {
-  if (cloud.summary().boundary_points == 0 || !is_scattered(nearest_neighbours(shape))) return {};
-  const auto& at = shape.measured();
-  return turns_of(Rims(cloud.surface(), at.size()), at, arm * cloud.summary().mean_spacing);
-}
-
-template ScatteredRims scattered_rims(const CloudShape&, const PointCloud<float>&);
-template ScatteredRims scattered_rims(const CloudShape&, const PointCloud<double>&);
-
-namespace {
-
 constexpr double wider = 1.9;    // than the edges that go on from it
 constexpr double onward = -0.5;  // cosine of the angle with these
 
@@ -249,6 +168,74 @@ std::size_t least_in_row(std::size_t points) {
 }
 
 }  // namespace
+
+RimDetours rim_detours(std::span<const std::array<double, 3>> positions, double spacing,
+                       std::span<const double> distance, std::span<const std::size_t> sources) {
+  RimDetours detours;
+  std::vector<bool> found(positions.size(), false);
+  std::vector<std::size_t> patch, farther;
+  std::vector<Point3> offsets;
+  for (const std::size_t s : sources.first(std::min(most_sources, sources.size()))) {
+    patch.clear();
+    offsets.clear();
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+      const Point3 q = minus(positions[v], positions[s]);
+      if (!(dot(q, q) <= farthest * farthest * spacing * spacing)) continue;
+      patch.push_back(v);
+      offsets.push_back(q);
+    }
+    if (patch.size() > most_points) continue;
+    const AroundSource around(offsets, spacing);
+    const auto share_of = [&](std::size_t i) {
+      return (distance[patch[i]] - distance[s]) / std::sqrt(dot(offsets[i], offsets[i])) - 1;
+    };
+    farther.clear();
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      if (dot(offsets[i], offsets[i]) < nearest * nearest * spacing * spacing) continue;
+      if (const double share = share_of(i); !(share > longer && share < behind_walls)) continue;
+      if (!found[patch[i]] && around.may_be_flat(offsets[i])) farther.push_back(i);
+    }
+    const std::size_t looks = std::min(most_looks, farther.size());
+    bool any = false;
+    for (std::size_t k = 0; k < looks; ++k) {
+      const std::size_t i = farther[k * farther.size() / looks], v = patch[i];
+      if (!in_one_plane(offsets, offsets[i], spacing)) continue;
+      found[v] = any = true;
+      if (detours.points++ == 0 || v < detours.first) detours.first = v;
+      detours.most = std::max(detours.most, share_of(i));
+    }
+    if (any && looks < farther.size()) detours.all = false;
+  }
+  return detours;
+}
+
+std::vector<double> nearest_neighbours(const CloudShape& shape) {
+  const auto& at = shape.measured();
+  std::vector<double> nearest(at.size(), 0);
+  for (Index v = 0; v < at.size(); ++v)
+    for (const Index w : shape.neighbours.around(v))
+      if (const double d = norm(minus(at[v], at[w])); d > 0 && (nearest[v] == 0 || d < nearest[v]))
+        nearest[v] = d;
+  return nearest;
+}
+
+bool is_scattered(std::span<const double> nearest) {
+  double sum = 0, squares = 0, count = 0;
+  for (const double d : nearest)
+    if (d > 0) sum += d, squares += d * d, ++count;
+  const double mean = sum / count;
+  return count > 0 && squares / count - mean * mean > by_chance * by_chance * mean * mean;
+}
+
+template <class Real>
+ScatteredRims scattered_rims(const CloudShape& shape, const PointCloud<Real>& cloud) {
+  if (cloud.summary().boundary_points == 0 || !is_scattered(nearest_neighbours(shape))) return {};
+  const auto& at = shape.measured();
+  return turns_of(Rims(cloud.surface(), at.size()), at, arm * cloud.summary().mean_spacing);
+}
+
+template ScatteredRims scattered_rims(const CloudShape&, const PointCloud<float>&);
+template ScatteredRims scattered_rims(const CloudShape&, const PointCloud<double>&);
 
 template <class Real>
 BridgedGaps bridged_gaps(const CloudShape& shape, const PointCloud<Real>& cloud) {

@@ -13,7 +13,7 @@
 #include "strings/flat/flat_taut.hpp"
 #include "strings/labels.hpp"
 
-/// Shortest paths in flat domains of any dimension by strings, as Solver (solve.hpp) in solids:
+/// Shortest paths in flat domains of any dimension by strings, as Solver (solver.hpp) in solids:
 /// places are faces of N - 2 dimensions.
 namespace plexway::detail::strings {
 /// A vertex as a source, or one that a path goes on from.

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "shape/files/files.hpp"
-#include "shape/words.hpp"
+#include "shape/info/report.hpp"
 #include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"

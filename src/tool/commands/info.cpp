@@ -6,7 +6,7 @@
 #include <plexway/error.hpp>
 
 #include "shape/info/info_report.hpp"
-#include "shape/words.hpp"
+#include "shape/info/report.hpp"
 #include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"

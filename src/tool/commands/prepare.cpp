@@ -9,7 +9,7 @@
 #include <plexway/any_domain.hpp>
 #include <plexway/error.hpp>
 
-#include "shape/words.hpp"
+#include "shape/info/report.hpp"
 #include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/options/solve_options.hpp"

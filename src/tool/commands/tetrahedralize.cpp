@@ -8,7 +8,7 @@
 #include "shape/arguments/arguments.hpp"
 #include "shape/files/files.hpp"
 #include "shape/info/info_report.hpp"
-#include "shape/words.hpp"
+#include "shape/info/report.hpp"
 #include "tool/app.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/console.hpp"

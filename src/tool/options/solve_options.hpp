@@ -10,8 +10,8 @@
 #include <plexway/solve/options.hpp>
 
 #include "shape/arguments/arguments.hpp"
+#include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"
-#include "shape/words.hpp"
 #include "tool/options/input.hpp"
 #include "tool/report/summary.hpp"
 

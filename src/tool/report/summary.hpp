@@ -11,9 +11,9 @@
 #include <plexway/solve/distance_field.hpp>
 
 #include "io/names.hpp"
+#include "shape/info/report.hpp"
 #include "shape/info/solve_words.hpp"
 #include "shape/stopwatch.hpp"
-#include "shape/words.hpp"
 #include "tool/options/input.hpp"
 
 namespace plexway::detail::cli {

@@ -37,6 +37,47 @@ Offset widest_direction(std::span<const Offset> offsets) {
   return unit(m[row]);
 }
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+using Distance = ::flann::L2_3D<double>;
+
+// The nearest so far, sorted. FLANN's own sets copy more than that.
+class Nearest final : public ::flann::ResultSet<double> {
+ public:
+  Nearest(std::vector<Found>& found, const std::vector<Index>& points, std::size_t self,
+          std::size_t k, double squared_radius)
+      : found_(found), points_(points), self_(self), k_(k), worst_(squared_radius) {
+    found_.clear();
+  }
+  bool full() const override { return true; }
+  // FLANN offers what is nearer than worstDist(), in any order: so of equals at the end of the row
+  // the lower number stays only if worstDist() is a little more than theirs.
+  void addPoint(double squared, std::size_t index) override {
+    if (index == self_) return;
+    const Found next{squared, points_[index], static_cast<Index>(index)};
+    if (k_ == 0) {
+      found_.push_back(next);
+      return;
+    }
+    if (found_.size() == k_) {
+      if (!(next < found_.back())) return;
+      found_.pop_back();
+    }
+    found_.push_back(next);
+    std::size_t i = found_.size() - 1;
+    for (; i > 0 && next < found_[i - 1]; --i) found_[i] = found_[i - 1];
+    found_[i] = next;
+    if (found_.size() == k_) worst_ = std::nextafter(found_.back().squared, infinity);
+  }
+  double worstDist() const override { return worst_; }
+
+ private:
+  std::vector<Found>& found_;
+  const std::vector<Index>& points_;
+  std::size_t self_, k_;
+  double worst_;
+};
+
 }  // namespace
 
 RowOfPoints::RowOfPoints(std::span<const Offset> offsets) {
@@ -89,51 +130,6 @@ std::size_t RowOfPoints::needed(std::span<const Offset> offsets, bool any) const
   }
   return 0;
 }
-
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-using Distance = ::flann::L2_3D<double>;
-
-// The nearest so far, sorted. FLANN's own sets copy more than that.
-class Nearest final : public ::flann::ResultSet<double> {
- public:
-  Nearest(std::vector<Found>& found, const std::vector<Index>& points, std::size_t self,
-          std::size_t k, double squared_radius)
-      : found_(found), points_(points), self_(self), k_(k), worst_(squared_radius) {
-    found_.clear();
-  }
-  bool full() const override { return true; }
-  // FLANN offers what is nearer than worstDist(), in any order: so of equals at the end of the row
-  // the lower number stays only if worstDist() is a little more than theirs.
-  void addPoint(double squared, std::size_t index) override {
-    if (index == self_) return;
-    const Found next{squared, points_[index], static_cast<Index>(index)};
-    if (k_ == 0) {
-      found_.push_back(next);
-      return;
-    }
-    if (found_.size() == k_) {
-      if (!(next < found_.back())) return;
-      found_.pop_back();
-    }
-    found_.push_back(next);
-    std::size_t i = found_.size() - 1;
-    for (; i > 0 && next < found_[i - 1]; --i) found_[i] = found_[i - 1];
-    found_[i] = next;
-    if (found_.size() == k_) worst_ = std::nextafter(found_.back().squared, infinity);
-  }
-  double worstDist() const override { return worst_; }
-
- private:
-  std::vector<Found>& found_;
-  const std::vector<Index>& points_;
-  std::size_t self_, k_;
-  double worst_;
-};
-
-}  // namespace
 
 struct Search::Tree {
   explicit Tree(std::vector<std::array<double, 3>>& points)

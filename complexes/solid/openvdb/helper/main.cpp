@@ -19,23 +19,20 @@
 #include "complexes/common/plain_bytes.hpp"
 #include "grid_bricks.hpp"
 
-namespace plexway::openvdb {
-/// What comes ahead of a grid's bricks.
+namespace {
+
+using namespace plexway::openvdb;
+using ::openvdb::GridBase;
+using plexway::InputError;
+namespace isolated = plexway::detail::isolated;
+
+// What comes ahead of a grid's bricks.
 struct GridHead {
   Frame frame;
   float background = 0;
   std::string name;
   std::size_t active = 0;
 };
-
-/// Reads a file with OpenVDB, in this process: `head` is told first, then each brick. Throws
-/// InputError without the file's name, whatever OpenVDB throws, or crashes.
-void copy_grid(const std::string& file, const std::string& grid,
-               const std::function<void(const GridHead&)>& head, const BrickTaker& brick);
-
-namespace {
-
-using ::openvdb::GridBase;
 
 std::string in_quotes(const std::string& name) { return "'" + name + "'"; }
 
@@ -94,8 +91,8 @@ void copy(const Grid& grid, const std::function<void(const GridHead&)>& head,
   hand_out(grid.constTree(), brick);
 }
 
-}  // namespace
-
+// Reads a file with OpenVDB, in this process: `head` is told first, then each brick. Throws
+// InputError without the file's name, whatever OpenVDB throws, or crashes.
 void copy_grid(const std::string& file, const std::string& wanted,
                const std::function<void(const GridHead&)>& head, const BrickTaker& brick) {
   // Never freed: the process ends here, and a damaged file may have bent what there is to free.
@@ -130,13 +127,6 @@ void copy_grid(const std::string& file, const std::string& wanted,
     throw InputError("grid " + in_quotes(name) + ": " + error.what());
   }
 }
-
-}  // namespace plexway::openvdb
-
-namespace {
-
-using namespace plexway::openvdb;
-namespace isolated = plexway::detail::isolated;
 
 class Writer {
  public:

@@ -15,14 +15,17 @@
 
 namespace plexway::openvdb {
 
-/// Cuts one tetrahedron of the lattice: corners 0 1 are the ends of one long edge, 2 3 of the
-/// other.
-///
-/// `side` is -1 inside, 0 on the surface, 1 outside; `doubled` are the corners' coordinates.
-/// `corner(i)` and `cut(i, j)`, from i inside to j outside, give vertices, `emit(a, b, c, d)` takes
-/// tetrahedra in any orientation. A quadrilateral on a face is halved by a rule that looks at the
-/// face alone, so that neighbours agree.
-/// Source: Labelle, Shewchuk, Isosurface Stuffing, figure 3.
+using namespace detail;
+namespace {
+
+// Cuts one tetrahedron of the lattice: corners 0 1 are the ends of one long edge, 2 3 of the
+// other.
+//
+// `side` is -1 inside, 0 on the surface, 1 outside; `doubled` are the corners' coordinates.
+// `corner(i)` and `cut(i, j)`, from i inside to j outside, give vertices, `emit(a, b, c, d)` takes
+// tetrahedra in any orientation. A quadrilateral on a face is halved by a rule that looks at the
+// face alone, so that neighbours agree.
+// Source: Labelle, Shewchuk, Isosurface Stuffing, figure 3.
 template <class Corner, class Cut, class Nearer, class Emit>
 void cut_tet(const std::array<int, 4>& side,
              const std::array<std::array<std::int32_t, 3>, 4>& doubled, Corner corner, Cut cut,
@@ -111,9 +114,6 @@ void cut_tet(const std::array<int, 4>& side,
   emit(corner(t), cut(t, o), cm, cl);
 }
 
-using namespace detail;
-namespace {
-
 class Cutter {
  public:
   Cutter(const Bricks& bricks, double spacing)
@@ -122,7 +122,7 @@ class Cutter {
         lattice_(bricks, spacing),
         number_(lattice_.points(), Lattice::none) {}
 
-  /// All tetrahedra, or with `shell` those alone that have a corner on the surface or outside.
+  // All tetrahedra, or with `shell` those alone that have a corner on the surface or outside.
   void run(bool shell) {
     for (std::uint32_t b = 0; b < lattice_.bricks(); ++b) {
       const Lattice::Around around = lattice_.around(b);
@@ -132,7 +132,7 @@ class Cutter {
     if (solid.tets.empty()) nothing_as_wide();
   }
 
-  /// Of the last run: whether the vertex is on the surface.
+  // Of the last run: whether the vertex is on the surface.
   [[nodiscard]] bool on_surface(Index vertex) const { return on_surface_[vertex] != 0; }
 
   Solid solid;

@@ -8,8 +8,10 @@
 #include <ios>
 #include <limits>
 #include <ostream>
+#include <span>
 #include <streambuf>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,19 +24,22 @@
 #include "file/new_file.hpp"
 
 namespace plexway::openvdb {
+namespace {
 
-/// A file that appears whole or not at all (`file/new_file.hpp`), for OpenVDB, which writes to a
-/// stream and does not look at its state: so this is the stream's buffer, and remembers what went
-/// wrong. The constructor and `commit` throw Error "cannot write FILE: reason".
+namespace fs = std::filesystem;
+
+// A file that appears whole or not at all (`file/new_file.hpp`), for OpenVDB, which writes to a
+// stream and does not look at its state: so this is the stream's buffer, and remembers what went
+// wrong. The constructor and `commit` throw Error "cannot write FILE: reason".
 class OutputFile : public std::streambuf {
  public:
-  explicit OutputFile(const std::filesystem::path& file);
+  explicit OutputFile(const fs::path& file);
 
-  /// Whether what was written can be gone back to.
+  // Whether what was written can be gone back to.
   [[nodiscard]] bool seekable() const { return file_.seekable(); }
-  /// Writes what is left, waits until the disk has it, and puts the file in its place.
+  // Writes what is left, waits until the disk has it, and puts the file in its place.
   void commit();
-  /// Throws for the reason that the system gave first, or if it gave none, this one.
+  // Throws for the reason that the system gave first, or if it gave none, this one.
   [[noreturn]] void refused(const std::string& otherwise);
 
  protected:
@@ -49,12 +54,11 @@ class OutputFile : public std::streambuf {
   bool flush();
 
   detail::file::NewFile file_;
-  int failure_ = 0;  ///< the first one's errno
+  int failure_ = 0;  // the first one's errno
   std::vector<char> buffer_;
 };
 
-OutputFile::OutputFile(const std::filesystem::path& file)
-    : file_(file), buffer_(std::size_t{1} << 16) {
+OutputFile::OutputFile(const fs::path& file) : file_(file), buffer_(std::size_t{1} << 16) {
   setp(buffer_.data(), buffer_.data() + buffer_.size());
 }
 
@@ -94,10 +98,6 @@ void OutputFile::refused(const std::string& otherwise) {
   if (failure_ != 0) file_.refuse(failure_);
   file_.refuse(otherwise);
 }
-
-namespace {
-
-namespace fs = std::filesystem;
 
 // OpenVDB's own writer of files leaves a short one on a full disk, and says nothing.
 class Archive : public ::openvdb::io::Archive {

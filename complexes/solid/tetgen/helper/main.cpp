@@ -18,18 +18,21 @@
 #include "complexes/common/plain_bytes.hpp"
 #include "isolated_run.hpp"
 
-namespace plexway::tetgen {
+namespace {
 
-/// Copies points to TetGen's array, `stride` numbers each; it frees the array itself.
-inline double* new_points(const std::vector<std::array<double, 3>>& points) {
+using namespace plexway::tetgen;
+namespace isolated = plexway::detail::isolated;
+
+// Copies points to TetGen's array, three numbers each; it frees the array itself.
+double* new_points(const std::vector<std::array<double, 3>>& points) {
   if (points.empty()) return nullptr;
   double* const list = new double[3 * points.size()];
   for (std::size_t i = 0; i < points.size(); ++i) std::copy_n(points[i].data(), 3, list + 3 * i);
   return list;
 }
 
-/// The complex in TetGen's own arrays. Facets get the markers 1, 2, ...
-inline void to_tetgen(const PiecewiseLinearComplex& complex, tetgenio& io) {
+// The complex in TetGen's own arrays. Facets get the markers 1, 2, ...
+void to_tetgen(const PiecewiseLinearComplex& complex, tetgenio& io) {
   io.pointlist = new_points(complex.positions);
   io.numberofpoints = static_cast<int>(complex.positions.size());
   io.holelist = new_points(complex.holes);
@@ -62,13 +65,6 @@ inline void to_tetgen(const PiecewiseLinearComplex& complex, tetgenio& io) {
     to[4] = region.max_volume > 0 ? region.max_volume : -1;
   }
 }
-
-}  // namespace plexway::tetgen
-
-namespace {
-
-using namespace plexway::tetgen;
-namespace isolated = plexway::detail::isolated;
 
 bool understand(isolated::BytesIn in, std::string& switches, PiecewiseLinearComplex& complex) {
   std::uint64_t facets = 0;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <plexway/tetgen/piecewise_linear_complex.hpp>

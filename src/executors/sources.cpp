@@ -9,7 +9,7 @@
 
 #include "executors/checks.hpp"
 #include "executors/solve_surface.hpp"
-#include "executors/source_parts.hpp"
+#include "executors/sources.hpp"
 #include "labels/alone.hpp"
 #include "labels/curve_seeds.hpp"
 #include "windows/window_solver.hpp"
@@ -89,8 +89,6 @@ SourceParts take_apart(std::span<const Source> sources, bool edges_only) {
     std::visit(Taker{parts, static_cast<Index>(n), edges_only}, sources[n]);
   return parts;
 }
-
-// Fields from curves and triangles on a surface.
 
 namespace {
 
