@@ -1,5 +1,5 @@
-// The loops: strings::Solver::add (strings/solver.cpp), or those of the pieces
-// (labels/mixed/mixed_pieces.hpp).
+// The loop: strings::Solver::add (strings/solver.cpp) where strings can go
+// (strings/mixed_strings.hpp); else labels/mixed/mixed_pieces.hpp calls that of each piece.
 
 #include <algorithm>
 #include <array>

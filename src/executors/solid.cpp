@@ -1,5 +1,5 @@
-// The loops: strings::Solver::add (strings/solver.cpp), and for `fast` that of
-// labels/simplicial/simplex_propagation.hpp.
+// The loops: strings::Solver::add (strings/solver.cpp), whose work is Extender::expand
+// (strings/extender.cpp), and for `fast` that of labels/simplicial/simplex_propagation.hpp.
 
 #include "executors/checks.hpp"
 #include "executors/run.hpp"

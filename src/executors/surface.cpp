@@ -1,5 +1,5 @@
-// The loops: MergedWindows::spread (windows/merged_windows.cpp), ExactWindows::spread
-// (windows/exact_windows.cpp), and for `fast` TriangleSpread::share
+// The loops: of `accurate`, the default, MergedWindows::spread (windows/merged_windows.cpp); of
+// `exact` ExactWindows::spread (windows/exact_windows.cpp); of `fast` TriangleSpread::share
 // (labels/surface/triangle_propagation.hpp).
 
 #include "executors/checks.hpp"

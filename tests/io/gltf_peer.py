@@ -1,4 +1,4 @@
-"""An independent reader of .glb and .gltf, NPY and VTU, for gltf_test.cpp.
+"""An independent reader of .glb and .gltf, NPY and VTU, for cells_test.cpp and convert_test.cpp.
 
 gltf_peer.py check FILE --mode M --vertices N --cells N [--distance ...] [--label ...]
     parses FILE and checks the rules of the glTF 2.0 specification that concern it
